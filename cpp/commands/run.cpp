@@ -1,5 +1,6 @@
 #include "commands/run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -142,7 +143,13 @@ void Run::open() {
   if (options_.quiet) return;
   const MemoryNeed need = memoryNeed(*first.model, first.scene().solver);
   const std::string ofFriction = anyFriction(*first.model) ? ", " + forFriction(need) : "";
-  log_.print("memory     " + aboutMemory(need.all) + ofFriction + (rounds_ ? ", first meshes\n" : "\n"));
+  const bool single =
+      std::any_of(first.model->bodies.begin(), first.model->bodies.end(), [&](const Body& body) {
+        return engineOf(*first.model, body, first.scene().solver) == LinearEngine::single;
+      });
+  log_.print("memory     " + aboutMemory(need.all) + ofFriction +
+             (single ? ", factors in single precision, corrected" : "") +
+             (rounds_ ? ", first meshes\n" : "\n"));
   if (firstRankOnly_) log_.print("ranks      the first one alone: " + first.whyNotShared + "\n");
   log_.print(logHeader(first.facts, *first.model));
   log_.print(rounds_ ? logRoundsHeader(*first.model) : logStepsHeader(first.facts.units));

@@ -1,7 +1,5 @@
 #include "linear/dense_kernels.h"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,9 +8,9 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "linear/blas.h"
 
 extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
 void dlaswp_(const int* n, double* a, const int* lda, const int* first, const int* last, const int* ipiv,
              const int* step);
@@ -31,13 +29,14 @@ bool isSmall(int n, int pivots) {
 }
 
 /// In two running sums of four: without leave to reorder, the compiler keeps one.
-double dot(const double* x, const double* y, int n) {
-  using Eight = std::experimental::fixed_size_simd<double, 8>;
+template <class Real>
+Real dot(const Real* x, const Real* y, int n) {
+  using Eight = std::experimental::fixed_size_simd<Real, 8>;
   namespace stdx = std::experimental;
   Eight sum = 0;
   int i = 0;
   for (; i + 8 <= n; i += 8) sum += Eight(x + i, stdx::element_aligned) * Eight(y + i, stdx::element_aligned);
-  double result = stdx::reduce(sum);
+  Real result = stdx::reduce(sum);
   for (; i < n; ++i) result += x[i] * y[i];
   return result;
 }
@@ -51,7 +50,8 @@ void swapColumns(double* A, int ld, int rows, const int* interchange, int n) {
 }
 
 /// NaN anywhere in a factorised block has reached its diagonal.
-bool finiteDiagonal(const double* panel, int n, int pivots) {
+template <class Real>
+bool finiteDiagonal(const Real* panel, int n, int pivots) {
   for (int k = 0; k < pivots; ++k)
     if (!std::isfinite(panel[static_cast<size_t>(n) * k + k])) return false;
   return true;
@@ -60,34 +60,35 @@ bool finiteDiagonal(const double* panel, int n, int pivots) {
 namespace stdx = std::experimental;
 
 /// Rows [i, i + size of Rows) and `columns` columns from j of update = -L21 U12; U12' and L21 by columns.
-template <class Rows, int columns>
-void updateBlock(const double* L21, int ldL, int pivots, const double* upper, int ldU, int i, int j,
-                 double* update, int ld) {
+template <class Rows, int columns, class Real>
+void updateBlock(const Real* L21, int ldL, int pivots, const Real* upper, int ldU, int i, int j, Real* update,
+                 int ld) {
   Rows sum[columns];
   for (Rows& each : sum) each = 0;
   for (int k = 0; k < pivots; ++k) {
     const Rows L(L21 + static_cast<size_t>(ldL) * k + i, stdx::element_aligned);
-    const double* u = upper + static_cast<size_t>(ldU) * k + j;
+    const Real* u = upper + static_cast<size_t>(ldU) * k + j;
     for (int c = 0; c < columns; ++c) sum[c] -= L * u[c];
   }
   for (int c = 0; c < columns; ++c)
     sum[c].copy_to(update + static_cast<size_t>(ld) * (j + c) + i, stdx::element_aligned);
 }
 
-template <int columns>
-void updateColumns(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, int i,
-                   int j, double* update) {
-  using Eight = stdx::fixed_size_simd<double, 8>;
-  using Four = stdx::fixed_size_simd<double, 4>;
-  using One = stdx::fixed_size_simd<double, 1>;
+template <int columns, class Real>
+void updateColumns(const Real* L21, int ldL, int pivots, const Real* upper, int ldU, int rest, int i, int j,
+                   Real* update) {
+  using Eight = stdx::fixed_size_simd<Real, 8>;
+  using Four = stdx::fixed_size_simd<Real, 4>;
+  using One = stdx::fixed_size_simd<Real, 1>;
   for (; i + 8 <= rest; i += 8) updateBlock<Eight, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
   for (; i + 4 <= rest; i += 4) updateBlock<Four, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
   for (; i < rest; ++i) updateBlock<One, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
 }
 
 /// update = -L21 U12; with `lower`, what is above the diagonal is left undefined.
-void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest,
-                 double* update, bool lower) {
+template <class Real>
+void smallUpdate(const Real* L21, int ldL, int pivots, const Real* upper, int ldU, int rest, Real* update,
+                 bool lower) {
   int j = 0;
   for (; j + 4 <= rest; j += 4)
     updateColumns<4>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
@@ -118,33 +119,28 @@ void forEachTile(int from, int to, int columns, bool lower, Threads& threads, co
 }
 
 /// Rows [i, i1) and columns [j, j1) of C = beta C - A A', on and below the diagonal.
-void subtractSquare(const double* A, int ldA, int inner, double beta, double* C, int ldC, int i, int i1,
-                    int j, int j1) {
-  double* target = C + static_cast<size_t>(ldC) * j + i;
-  if (i == j)
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, j1 - j, inner, -1, A + j, ldA, beta, target, ldC);
+template <class Real>
+void subtractSquare(const Real* A, int ldA, int inner, Real beta, Real* C, int ldC, int i, int i1, int j,
+                    int j1) {
+  Real* target = C + static_cast<size_t>(ldC) * j + i;
+  if (i == j) squared(j1 - j, inner, A + j, ldA, beta, target, ldC);
   const int below = std::max(i, j1);
-  if (below < i1)
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, i1 - below, j1 - j, inner, -1, A + below, ldA, A + j,
-                ldA, beta, target + (below - i), ldC);
+  if (below < i1) product(i1 - below, j1 - j, inner, A + below, A + j, ldA, beta, target + (below - i), ldC);
 }
 
 /// L11 of a large pivot block.
-bool tiledCholesky(double* panel, int n, int pivots, Threads& threads) {
+template <class Real>
+bool tiledCholesky(Real* panel, int n, int pivots, Threads& threads) {
   for (int k = 0; k < pivots; k += tile) {
     stopIfInterrupted();
     const int next = std::min(k + tile, pivots);
     const int width = next - k;
-    double* diagonal = panel + static_cast<size_t>(n) * k + k;
-    int info = 0;
-    dpotrf_("L", &width, diagonal, &n, &info);
-    if (info != 0) return false;
-    forEachTile(next, pivots, threads, [&](int i, int i1) {
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, i1 - i, width, 1, diagonal,
-                  n, diagonal + (i - k), n);
-    });
+    Real* diagonal = panel + static_cast<size_t>(n) * k + k;
+    if (!cholesky(width, diagonal, n)) return false;
+    forEachTile(next, pivots, threads,
+                [&](int i, int i1) { solveRight(i1 - i, width, diagonal, n, diagonal + (i - k), n); });
     forEachTile(next, pivots, pivots, true, threads, [&](int i, int i1, int j, int j1) {
-      subtractSquare(panel + static_cast<size_t>(n) * k, n, width, 1, panel, n, i, i1, j, j1);
+      subtractSquare<Real>(panel + static_cast<size_t>(n) * k, n, width, 1, panel, n, i, i1, j, j1);
     });
   }
   return true;
@@ -198,43 +194,38 @@ void endThreadsOfBlas() {
   if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 
-bool partialCholesky(double* panel, int n, int pivots, double* update, Threads& threads) {
+template <class Real>
+bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>* update, Threads& threads) {
   const int rest = n - pivots;
-  double* L21 = panel + pivots;
+  Real* L21 = panel + pivots;
   if (isLarge(n, pivots)) {
     if (!tiledCholesky(panel, n, pivots, threads) || !finiteDiagonal(panel, n, pivots)) return false;
-    forEachTile(0, rest, threads, [&](int i, int i1) {
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, i1 - i, pivots, 1, panel,
-                  n, L21 + i, n);
-    });
+    forEachTile(0, rest, threads, [&](int i, int i1) { solveRight(i1 - i, pivots, panel, n, L21 + i, n); });
     forEachTile(0, rest, rest, true, threads, [&](int i, int i1, int j, int j1) {
-      subtractSquare(L21, n, pivots, 0, update, rest, i, i1, j, j1);
+      subtractSquare<Real>(L21, n, pivots, 0, update, rest, i, i1, j, j1);
     });
     return true;
   }
   if (!isSmall(n, pivots)) {
-    int info = 0;
-    dpotrf_("L", &pivots, panel, &n, &info);
-    if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
+    if (!cholesky(pivots, panel, n) || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, panel, n,
-                L21, n);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 0, update, rest);
+    solveRight(rest, pivots, panel, n, L21, n);
+    squared(rest, pivots, L21, n, Real(0), update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
-    double* pivot = panel + static_cast<size_t>(n) * k;
+    Real* pivot = panel + static_cast<size_t>(n) * k;
     if (!(pivot[k] > 0) || !std::isfinite(pivot[k])) return false;
     pivot[k] = std::sqrt(pivot[k]);
-    const double inverse = 1 / pivot[k];
+    const Real inverse = 1 / pivot[k];
     for (int i = k + 1; i < n; ++i) pivot[i] *= inverse;
     for (int j = k + 1; j < pivots; ++j) {
-      double* target = panel + static_cast<size_t>(n) * j;
-      const double factor = pivot[j];
+      Real* target = panel + static_cast<size_t>(n) * j;
+      const Real factor = pivot[j];
       for (int i = j; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
-  smallUpdate(L21, n, pivots, L21, n, rest, update, true);
+  smallUpdate<Real>(L21, n, pivots, L21, n, rest, update, true);
   return true;
 }
 
@@ -308,24 +299,20 @@ void swapRows(double* x, const int* interchange, int n) {
   for (int k = 0; k < n; ++k) std::swap(x[k], x[interchange[k]]);
 }
 
-void solveLower(const double* L, int ld, int n, bool unit, double* x) {
-  if (n > smallPivots) {
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, unit ? CblasUnit : CblasNonUnit, n, L, ld, x, 1);
-    return;
-  }
+template <class Real>
+void solveLower(const Real* L, int ld, int n, bool unit, Real* x) {
+  if (n > smallPivots) return solveVector(CblasNoTrans, unit ? CblasUnit : CblasNonUnit, n, L, ld, x);
   for (int k = 0; k < n; ++k, L += ld) {
     if (!unit) x[k] /= L[k];
     for (int i = k + 1; i < n; ++i) x[i] -= L[i] * x[k];
   }
 }
 
-void solveLowerTransposed(const double* L, int ld, int n, double* x) {
-  if (n > smallPivots) {
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, x, 1);
-    return;
-  }
+template <class Real>
+void solveLowerTransposed(const Real* L, int ld, int n, Real* x) {
+  if (n > smallPivots) return solveVector(CblasTrans, CblasNonUnit, n, L, ld, x);
   for (int k = n; k-- > 0;) {
-    const double* column = L + static_cast<size_t>(ld) * k;
+    const Real* column = L + static_cast<size_t>(ld) * k;
     for (int i = k + 1; i < n; ++i) x[k] -= column[i] * x[i];
     x[k] /= column[k];
   }
@@ -343,26 +330,33 @@ void solveUpper(const double* U, int ld, int n, double* x) {
   }
 }
 
-void multiply(const double* A, int ld, int rows, int columns, const double* x, double* y) {
+template <class Real>
+void multiply(const Real* A, int ld, int rows, int columns, const Real* x, Real* y) {
   if (rows == 0) return;
-  if (!isSmall(rows, columns)) {
-    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, columns, 1, A, ld, x, 1, 0, y, 1);
-    return;
-  }
+  if (!isSmall(rows, columns)) return timesVector(CblasNoTrans, rows, columns, 1, A, ld, x, 0, y);
   for (int i = 0; i < rows; ++i) y[i] = A[i] * x[0];
   for (int k = 1; k < columns; ++k) {
-    const double* column = A + static_cast<size_t>(ld) * k;
+    const Real* column = A + static_cast<size_t>(ld) * k;
     for (int i = 0; i < rows; ++i) y[i] += column[i] * x[k];
   }
 }
 
-void subtractTransposed(const double* A, int ld, int rows, int columns, const double* x, double* y) {
+template <class Real>
+void subtractTransposed(const Real* A, int ld, int rows, int columns, const Real* x, Real* y) {
   if (rows == 0) return;
-  if (!isSmall(rows, columns)) {
-    cblas_dgemv(CblasColMajor, CblasTrans, rows, columns, -1, A, ld, x, 1, 1, y, 1);
-    return;
-  }
+  if (!isSmall(rows, columns)) return timesVector(CblasTrans, rows, columns, -1, A, ld, x, 1, y);
   for (int k = 0; k < columns; ++k) y[k] -= dot(A + static_cast<size_t>(ld) * k, x, rows);
 }
+
+template bool partialCholesky(double*, int, int, double*, Threads&);
+template void solveLower(const double*, int, int, bool, double*);
+template void solveLowerTransposed(const double*, int, int, double*);
+template void multiply(const double*, int, int, int, const double*, double*);
+template void subtractTransposed(const double*, int, int, int, const double*, double*);
+template bool partialCholesky(float*, int, int, float*, Threads&);
+template void solveLower(const float*, int, int, bool, float*);
+template void solveLowerTransposed(const float*, int, int, float*);
+template void multiply(const float*, int, int, int, const float*, float*);
+template void subtractTransposed(const float*, int, int, int, const float*, float*);
 
 }  // namespace mortier::dense

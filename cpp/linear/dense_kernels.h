@@ -1,6 +1,8 @@
 // Dense kernels of the multifrontal factorisation: loops for the many small fronts, BLAS for the few large
-// ones. Matrices are column major with leading dimension `ld`.
+// ones. Matrices are column major with leading dimension `ld`. Real: double or float.
 #pragma once
+
+#include <type_traits>
 
 #include "base/parallel.h"
 
@@ -12,7 +14,8 @@ bool isLarge(int n, int pivots);
 /// Panel (n x pivots, lower triangle) becomes [L11; L21], update (updates x updates, lower triangle) -L21
 /// L21'.
 /// \returns false unless the pivot block is positive definite.
-bool partialCholesky(double* panel, int n, int pivots, double* update, Threads& threads);
+template <class Real>
+bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>* update, Threads& threads);
 
 /// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12;
 /// the rows of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the
@@ -30,14 +33,18 @@ void endThreadsOfBlas();
 /// Interchanges the first n entries of x as partialLU told.
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.
-void solveLower(const double* L, int ld, int n, bool unit, double* x);
+template <class Real>
+void solveLower(const Real* L, int ld, int n, bool unit, Real* x);
 /// x = L^-T x.
-void solveLowerTransposed(const double* L, int ld, int n, double* x);
+template <class Real>
+void solveLowerTransposed(const Real* L, int ld, int n, Real* x);
 /// x = U^-1 x.
 void solveUpper(const double* U, int ld, int n, double* x);
 /// y = A x, A rows x columns.
-void multiply(const double* A, int ld, int rows, int columns, const double* x, double* y);
+template <class Real>
+void multiply(const Real* A, int ld, int rows, int columns, const Real* x, Real* y);
 /// y -= A' x, A rows x columns.
-void subtractTransposed(const double* A, int ld, int rows, int columns, const double* x, double* y);
+template <class Real>
+void subtractTransposed(const Real* A, int ld, int rows, int columns, const Real* x, Real* y);
 
 }  // namespace mortier::dense

@@ -3,10 +3,14 @@
 // and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held.
 // The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
 // the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
+// In single precision K is scaled by a power of two, and so are right-hand sides: none leaves its range.
 #include "linear/multifrontal.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "base/interrupt.h"
@@ -17,6 +21,8 @@
 namespace mortier {
 namespace {
 
+/// Real: double, or float for symmetric patterns.
+template <class Real>
 class Multifrontal final : public CondensingSolver {
  public:
   Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept, bool amongOthers)
@@ -36,7 +42,8 @@ class Multifrontal final : public CondensingSolver {
   }
 
   bool factorise(const std::vector<double>& values) override {
-    if (!panels_) panels_ = std::make_unique_for_overwrite<double[]>(panelSize_);
+    if (!panels_) panels_ = std::make_unique_for_overwrite<Real[]>(panelSize_);
+    scale_ = scaleOf(values.data(), values.size());
     pivots_.resize(pivotSize_);
     std::atomic<bool> regular = true;
     threads().upward(pieces_.parent, [&](int p) {
@@ -51,42 +58,47 @@ class Multifrontal final : public CondensingSolver {
   [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
 
   void condense(Vector& f) const override {
-    Vector x = inOrder(f);
-    std::vector<double*> passed(plan_.fronts.size());
-    std::vector<std::unique_ptr<double[]>> stacks(pieces_.all.size());
+    const double scale = scaleOf(f.data(), f.size());
+    Reals x = inOrder(f, scale);
+    std::vector<Real*> passed(plan_.fronts.size());
+    std::vector<std::unique_ptr<Real[]>> stacks(pieces_.all.size());
     threads().upward(pieces_.parent, [&](int p) {
-      stacks[p] = std::make_unique_for_overwrite<double[]>(pieces_.all[p].vectorStack);
+      stacks[p] = std::make_unique_for_overwrite<Real[]>(pieces_.all[p].vectorStack);
       condensePiece(pieces_.all[p], x, stacks[p].get(), passed);
       for (const int child : pieces_.all[p].children) stacks[child].reset();
     });
-    putBack(x, f);
+    putBack(x, f, scale_ / scale, 1 / scale);
   }
 
   void expand(Vector& f) const override {
-    Vector x = inOrder(f);
+    const double scale = scaleOf(f.data(), f.size());
+    Reals x = inOrder(f, scale);
     threads().downward(pieces_.parent, [&](int p) {
-      Vector y(static_cast<Eigen::Index>(largest_));
+      Reals y(static_cast<Eigen::Index>(largest_));
       for (int s = pieces_.all[p].last; s >= pieces_.all[p].first; --s) {
         const Front& front = plan_.fronts[s];
         const auto n = static_cast<int>(front.rows.size());
         const int pivots = front.pivots;
         if (pivots == 0) continue;
-        double* x1 = &x[front.rows[0]];
+        Real* x1 = &x[front.rows[0]];
         for (int i = pivots; i < n; ++i) y[i - pivots] = x[front.rows[i]];
-        const double* L = panel(s);
+        const Real* L = panel(s);
         if (symmetric_) {
           subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
           dense::solveLowerTransposed(L, n, pivots, x1);
-        } else {
+        } else if constexpr (isDouble) {
           subtractTransposed(upper(s), n - pivots, n - pivots, pivots, y.data(), x1);
           dense::solveUpper(L, n, pivots, x1);
         }
       }
     });
-    putBack(x, f);
+    putBack(x, f, 1 / scale, 1 / scale);
   }
 
  private:
+  static constexpr bool isDouble = std::is_same_v<Real, double>;
+  using Reals = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
   /// Where the factor of a front is held.
   struct Factor {
     size_t panel = 0;
@@ -94,8 +106,8 @@ class Multifrontal final : public CondensingSolver {
     size_t pivot = 0;
   };
 
-  [[nodiscard]] double* panel(int s) const { return panels_.get() + factors_[s].panel; }
-  [[nodiscard]] double* upper(int s) const { return panels_.get() + factors_[s].upper; }
+  [[nodiscard]] Real* panel(int s) const { return panels_.get() + factors_[s].panel; }
+  [[nodiscard]] Real* upper(int s) const { return panels_.get() + factors_[s].upper; }
 
   /// Calls work(begin, end) for parts of [0, n).
   template <class Work>
@@ -114,40 +126,49 @@ class Multifrontal final : public CondensingSolver {
   }
 
   /// y -= A' x, A rows x count.
-  void subtractTransposed(const double* A, int ld, int rows, int count, const double* x, double* y) const {
+  void subtractTransposed(const Real* A, int ld, int rows, int count, const Real* x, Real* y) const {
     forEachPart(count, rowsAtOnce(rows), [&](size_t begin, size_t end) {
       dense::subtractTransposed(A + ld * begin, ld, rows, static_cast<int>(end - begin), x, y + begin);
     });
   }
 
-  [[nodiscard]] Vector inOrder(const Vector& f) const {
-    Vector x(f.size());
+  /// The power of two that brings the largest of them close to one; 1 in double precision.
+  [[nodiscard]] static double scaleOf(const double* values, size_t count) {
+    double largest = 0;
+    for (size_t i = 0; i < count && !isDouble; ++i) largest = std::max(largest, std::abs(values[i]));
+    return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, -std::ilogb(largest)) : 1;
+  }
+
+  [[nodiscard]] Reals inOrder(const Vector& f, double scale) const {
+    Reals x(f.size());
     forEachPart(plan_.order.size(), equations, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) x[i] = f[plan_.order[i]];
+      for (size_t i = begin; i < end; ++i) x[i] = static_cast<Real>(scale * f[plan_.order[i]]);
     });
     return x;
   }
 
-  void putBack(const Vector& x, Vector& f) const {
+  void putBack(const Reals& x, Vector& f, double interiorScale, double keptScale) const {
+    const size_t interior = plan_.size - plan_.kept;
     forEachPart(plan_.order.size(), equations, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) f[plan_.order[i]] = x[i];
+      for (size_t i = begin; i < end; ++i)
+        f[plan_.order[i]] = x[i] * (i < interior ? interiorScale : keptScale);
     });
   }
 
   bool factorisePiece(int p, const std::vector<double>& values) {
     const Piece& piece = pieces_.all[p];
-    stacks_[p] = std::make_unique_for_overwrite<double[]>(piece.stack);
-    double* top = stacks_[p].get();
+    stacks_[p] = std::make_unique_for_overwrite<Real[]>(piece.stack);
+    Real* top = stacks_[p].get();
     for (int s = piece.first; s <= piece.last; ++s) {
       stopIfInterrupted();
       const Front& front = plan_.fronts[s];
       const size_t m = front.updates();
-      double* update = top;
+      Real* update = top;
       const size_t held = front.panelSize() + (symmetric_ ? 0 : front.pivots * m);
       const bool shared = dense::isLarge(static_cast<int>(front.rows.size()), front.pivots);
       const size_t part = shared ? columns : std::max<size_t>(front.rows.size(), 1);
       forEachPart(held, part * front.rows.size(),
-                  [&](size_t begin, size_t end) { std::fill(panel(s) + begin, panel(s) + end, 0.0); });
+                  [&](size_t begin, size_t end) { std::fill(panel(s) + begin, panel(s) + end, Real(0)); });
       assemble(s, values, 0, held, panel(s));
       forEachPart(front.pivots, part, [&](size_t begin, size_t end) {
         for (const int child : front.children) extendAddPanel(s, child, begin, end);
@@ -169,11 +190,11 @@ class Multifrontal final : public CondensingSolver {
   }
 
   /// Adds the front's entries placed in [begin, end), the first of them to target[0].
-  void assemble(size_t s, const std::vector<double>& values, size_t begin, size_t end, double* target) const {
+  void assemble(size_t s, const std::vector<double>& values, size_t begin, size_t end, Real* target) const {
     const size_t last = s + 1 < plan_.fronts.size() ? plan_.fronts[s + 1].firstEntry : plan_.entries.size();
     for (size_t k = plan_.fronts[s].firstEntry; k < last; ++k) {
       const size_t at = plan_.positions[k];
-      if (at >= begin && at < end) target[at - begin] += values[plan_.entries[k]];
+      if (at >= begin && at < end) target[at - begin] += static_cast<Real>(scale_ * values[plan_.entries[k]]);
     }
   }
 
@@ -193,74 +214,77 @@ class Multifrontal final : public CondensingSolver {
     const size_t split = rowsBefore(rows, front.pivots);
     const size_t first = rowsBefore(rows, begin);
     const size_t last = rowsBefore(rows, end);
-    const double* child = updates_[childIndex];
+    const Real* child = updates_[childIndex];
     for (size_t j = first; j < last; ++j) {
-      double* column = panel(s) + n * rows[j];
+      Real* column = panel(s) + n * rows[j];
       for (size_t i = symmetric_ ? j : 0; i < m; ++i) column[rows[i]] += child[m * j + i];
     }
     if (symmetric_) return;
     const size_t updates = front.updates();
     for (size_t j = split; j < m; ++j) {
-      double* row = upper(s) + (rows[j] - front.pivots);
+      Real* row = upper(s) + (rows[j] - front.pivots);
       for (size_t i = first; i < last; ++i) row[updates * rows[i]] += child[m * j + i];
     }
   }
 
   /// In the columns [begin, end) of the update.
-  void extendAddUpdate(int s, int childIndex, double* update, size_t begin, size_t end) {
+  void extendAddUpdate(int s, int childIndex, Real* update, size_t begin, size_t end) {
     const Front& front = plan_.fronts[s];
     const std::vector<int>& rows = plan_.fronts[childIndex].inParent;
     const size_t updates = front.updates();
     const size_t m = rows.size();
     const size_t split = rowsBefore(rows, front.pivots);
     const size_t last = rowsBefore(rows, front.pivots + end);
-    const double* child = updates_[childIndex];
+    const Real* child = updates_[childIndex];
     for (size_t j = rowsBefore(rows, front.pivots + begin); j < last; ++j) {
-      double* column = update + updates * (rows[j] - front.pivots) - front.pivots;
+      Real* column = update + updates * (rows[j] - front.pivots) - front.pivots;
       for (size_t i = symmetric_ ? j : split; i < m; ++i) column[rows[i]] += child[m * j + i];
     }
   }
 
-  bool eliminate(int s, double* update) {
+  bool eliminate(int s, Real* update) {
     const Front& front = plan_.fronts[s];
     const auto n = static_cast<int>(front.rows.size());
     if (front.pivots == 0) {
-      std::fill_n(update, front.updates() * front.updates(), 0.0);
+      std::fill_n(update, front.updates() * front.updates(), Real(0));
       return true;
     }
     if (symmetric_) return dense::partialCholesky(panel(s), n, front.pivots, update, threads());
-    return dense::partialLU(panel(s), n, front.pivots, upper(s), update, pivots_.data() + factors_[s].pivot,
-                            threads());
+    if constexpr (isDouble)
+      return dense::partialLU(panel(s), n, front.pivots, upper(s), update, pivots_.data() + factors_[s].pivot,
+                              threads());
+    return false;
   }
 
-  void keepSchurComplement(const double* update) {
+  void keepSchurComplement(const Real* update) {
     const Eigen::Index m = plan_.kept;
     schur_.resize(m, m);
     for (Eigen::Index j = 0; j < m; ++j)
       for (Eigen::Index i = symmetric_ ? j : 0; i < m; ++i) {
-        schur_(i, j) = update[m * j + i];
+        schur_(i, j) = update[m * j + i] / scale_;
         if (symmetric_) schur_(j, i) = schur_(i, j);
       }
   }
 
   /// x1 becomes L11^-1 (x1 - sum of what children pass), and that sum plus L21 x1 is passed on.
-  void condensePiece(const Piece& piece, Vector& x, double* top, std::vector<double*>& passed) const {
+  void condensePiece(const Piece& piece, Reals& x, Real* top, std::vector<Real*>& passed) const {
     for (int s = piece.first; s <= piece.last; ++s) {
       const Front& front = plan_.fronts[s];
       const auto n = static_cast<int>(front.rows.size());
       const int pivots = front.pivots;
-      double* sum = top;
-      double* product = top + n;
-      std::fill_n(sum, n, 0.0);
+      Real* sum = top;
+      Real* product = top + n;
+      std::fill_n(sum, n, Real(0));
       for (const int child : front.children) {
         const std::vector<int>& rows = plan_.fronts[child].inParent;
         for (size_t i = 0; i < rows.size(); ++i) sum[rows[i]] += passed[child][i];
       }
       if (pivots > 0) {
-        double* x1 = &x[front.rows[0]];
+        Real* x1 = &x[front.rows[0]];
         for (int i = 0; i < pivots; ++i) x1[i] -= sum[i];
-        const double* L = panel(s);
-        if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
+        const Real* L = panel(s);
+        if constexpr (isDouble)
+          if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
         dense::solveLower(L, n, pivots, !symmetric_, x1);
         forEachPart(n - pivots, rowsAtOnce(pivots), [&](size_t begin, size_t end) {
           dense::multiply(L + pivots + begin, n, static_cast<int>(end - begin), pivots, x1, product + begin);
@@ -283,10 +307,11 @@ class Multifrontal final : public CondensingSolver {
   size_t panelSize_ = 0;
   size_t pivotSize_ = 0;
   size_t largest_ = 0;
-  std::unique_ptr<double[]> panels_;
+  double scale_ = 1;  ///< of the factors
+  std::unique_ptr<Real[]> panels_;
   std::vector<int> pivots_;
-  std::vector<double*> updates_;                   ///< of each front, while its parent waits for it
-  std::vector<std::unique_ptr<double[]>> stacks_;  ///< of each piece: its updates
+  std::vector<Real*> updates_;                   ///< of each front, while its parent waits for it
+  std::vector<std::unique_ptr<Real[]>> stacks_;  ///< of each piece: its updates
   Matrix schur_;
 };
 
@@ -295,13 +320,19 @@ class Multifrontal final : public CondensingSolver {
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept) {
   dense::useOneThread();
-  return std::make_unique<Multifrontal>(pattern, kept, false);
+  return std::make_unique<Multifrontal<double>>(pattern, kept, false);
+}
+
+std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
+  dense::useOneThread();
+  if (!pattern.symmetric) throw std::logic_error("factors in single precision are of symmetric matrices");
+  return std::make_unique<Multifrontal<float>>(pattern, kept, true);
 }
 
 std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
                                                               const std::vector<int>& kept) {
   dense::useOneThread();
-  return std::make_unique<Multifrontal>(pattern, kept, true);
+  return std::make_unique<Multifrontal<double>>(pattern, kept, true);
 }
 
 }  // namespace mortier

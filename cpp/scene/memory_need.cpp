@@ -82,13 +82,15 @@ namespace {
 
 /// In space, by what solids of six tetrahedra a cell need: 1.2e7 numbers of a factor of 26,000 equations,
 /// growing with the power 1.4.
-MemoryNeed needInSpace(const Model& model) {
+MemoryNeed needInSpace(const Model& model, const SolverOptions& options) {
   constexpr double program = 12 << 20;
   double bytes = program;
   double conditions = 0;
   for (const Body& body : model.bodies) {
     constexpr double ofAnEquation = 2000;
-    bytes += sizeof(double) * 1.2e7 * std::pow(body.freeDofs() / 26e3, 1.4) + ofAnEquation * body.dofs();
+    const bool single = engineOf(model, body, options) == LinearEngine::single;
+    bytes += (single ? sizeof(float) : sizeof(double)) * 1.2e7 * std::pow(body.freeDofs() / 26e3, 1.4) +
+             ofAnEquation * body.dofs();
   }
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   const double dense = 4 * sizeof(double) * conditions * conditions;
@@ -98,7 +100,7 @@ MemoryNeed needInSpace(const Model& model) {
 }  // namespace
 
 MemoryNeed memoryNeed(const Model& model, const SolverOptions& options) {
-  if (model.bodies.front().dimension() == 3) return needInSpace(model);
+  if (model.bodies.front().dimension() == 3) return needInSpace(model, options);
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;

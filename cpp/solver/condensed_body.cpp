@@ -42,7 +42,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
                              const SolverOptions& options, Threads& threads, bool whole)
     : body_(model.bodies[body]),
       contact_(model, body, firstRow),
-      engine_(options.linear),
+      engine_(engineOf(model, body_, options)),
       reduce_(options.reduce),
       distributedFrom_(options.distributedFrom),
       whole_(whole),
@@ -57,6 +57,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
   const bool amongOthers = threads_.count() > 1 && part_ == nullptr;  // bodies are made at once
   const CondensingSolverFactory engine = engine_ == LinearEngine::suitesparse ? suiteSparseSolver
+                                         : engine_ == LinearEngine::single    ? singleSolver
                                          : amongOthers                        ? multifrontalSolverOfOneBody
                                                                               : multifrontalSolver;
   SharedEquations shared;
@@ -193,9 +194,10 @@ void CondensedBody::join(Factors& factors) {
 }
 
 void CondensedBody::useSchurComplement(Factors& factors) {
-  if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.material().symmetricTangent()) {
+  if (!factorised_ && (engine_ == LinearEngine::single ||
+                       (engine_ == LinearEngine::multifrontal && !body_.material().symmetricTangent()))) {
     // UMFPACK pivots in the whole matrix.
-    useSuiteSparse();
+    useNextEngine();
     factorised_ = solver_->join(solver_->factorise(values_));
   }
   if (!factorised_)
@@ -236,9 +238,10 @@ void CondensedBody::addCompliance(Matrix& W) const {
   });
 }
 
-void CondensedBody::useSuiteSparse() {
+void CondensedBody::useNextEngine() {
   if (engine_ == LinearEngine::suitesparse) return;
-  engine_ = LinearEngine::suitesparse;
+  engine_ = engine_ == LinearEngine::single ? LinearEngine::multifrontal : LinearEngine::suitesparse;
+  ++enginesGivenUp_;
   if (whole_ || body_.rigid()) return;
   solver_ = newSolver();
   factorised_ = false;

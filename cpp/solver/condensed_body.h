@@ -94,9 +94,10 @@ class CondensedBody {
   /// \returns it everywhere (dofs); of a part before it is completed at its nodes.
   Vector expand();
 
-  /// From now on CHOLMOD or UMFPACK.
-  void useSuiteSparse();
-  [[nodiscard]] bool usesSuiteSparse() const { return engine_ == LinearEngine::suitesparse; }
+  /// From now on double precision; where that was in use, CHOLMOD or UMFPACK.
+  void useNextEngine();
+  [[nodiscard]] int enginesGivenUp() const { return enginesGivenUp_; }
+  [[nodiscard]] bool inSinglePrecision() const { return engine_ == LinearEngine::single && !whole_; }
   /// Whether the factors are those of elasticity.
   [[nodiscard]] bool elasticFactors() const { return elasticFactors_; }
   /// Those that the next factorise() makes were counted before a run was interrupted.
@@ -113,6 +114,7 @@ class CondensedBody {
   const Body& body_;
   ContactDofs contact_;
   LinearEngine engine_;
+  int enginesGivenUp_ = 0;
   bool reduce_;
   int distributedFrom_;
   bool whole_;

@@ -43,6 +43,17 @@ bool anyDistanceMoves(const Model& model) {
                      [](const ContactInterface& interface) { return interface.distanceMoves(); });
 }
 
+LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions& options) {
+  constexpr int worthCorrecting = 20000;  // equations
+  if (options.linear == LinearEngine::suitesparse) return options.linear;
+  const bool possible = body.dimension() == 3 && body.material().symmetricTangent() && !model.inParts();
+  const bool pays = body.freeDofs() >= worthCorrecting &&
+                    std::all_of(model.bodies.begin(), model.bodies.end(),
+                                [](const Body& each) { return each.material().linear(); });
+  return possible && (pays || options.linear == LinearEngine::single) ? LinearEngine::single
+                                                                      : LinearEngine::multifrontal;
+}
+
 bool solvesSparse(const Model& model, const SolverOptions& options) {
   double conditions = 0;
   double equations = 0;

@@ -76,7 +76,8 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
 
 enum class LinearEngine {
   multifrontal,  ///< our own, SuiteSparse where it fails
-  suitesparse    ///< CHOLMOD or UMFPACK only
+  suitesparse,   ///< CHOLMOD or UMFPACK only
+  single  ///< our own in single precision, what it leaves corrected; in double precision where it fails
 };
 
 enum class Method {
@@ -109,6 +110,10 @@ struct SolverOptions {
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
 };
+
+/// Of a body: large linear bodies in space have factors in single precision, as corrections with them cost
+/// little, and those that have a symmetric tangent where the options ask for it.
+LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions& options);
 
 /// Whether contact is solved without dense matrices over its conditions.
 bool solvesSparse(const Model& model, const SolverOptions& options);

@@ -17,9 +17,13 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   // Triangles far from an axis are the stiffest, as theirs are the widest rings, while contact next to it has
   // the forces: what a solve rounds there is more than elsewhere, and is gone after another one.
   constexpr double roundedInRings = 1e-12;
+  // What single precision leaves falls with each solve, until it is rounding.
+  constexpr double falls = 0.25;
+  constexpr double rounded = 1e-15;
   const std::vector<Body>& bodies = system.model().bodies;
   bool polish = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.axisymmetric(); });
   int outOfBalance = 0;
+  int corrections = 0;
   double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
   prescribe(system.model(), step, iterate);
@@ -28,7 +32,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   while (true) {
     const double residual = linearised.residual();
     const bool far = residual > diverged && !limits.shortens;
-    if (outcome.iterations == limits.iterations || !std::isfinite(residual) ||
+    if (outcome.iterations == limits.iterations + corrections || !std::isfinite(residual) ||
         (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
       std::ostringstream text;
@@ -58,15 +62,20 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       else
         linearised = system.linearise(step, iterate, weight, limits.anticipate);
     }
-    balance = certificate.forceBalance;
-    if (balance > roundedInRings && outcome.iterations < limits.iterations && std::exchange(polish, false))
+    const double lastBalance = std::exchange(balance, certificate.forceBalance);
+    if (system.inSinglePrecision() && balance > rounded && !(balance > falls * lastBalance)) {
+      ++corrections;
+      continue;
+    }
+    if (balance > roundedInRings && outcome.iterations < limits.iterations + corrections &&
+        std::exchange(polish, false))
       continue;
     if (balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
       outcome.converge(certificate);
       return outcome;
     }
     // The law holds and equilibrium does not, again and again: the linear solves are to blame.
-    if (++outOfBalance == patience) system.useSuiteSparse();
+    if (++outOfBalance == patience) system.useNextEngine();
   }
 }
 

@@ -170,8 +170,8 @@ int SparseContact::entry(int row, int column) const {
 }
 
 void SparseContact::analyse() {
-  solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(pattern_, {})
-                                                  : suiteSparseSolver(pattern_, {});
+  solver_ = engine_ == LinearEngine::suitesparse ? suiteSparseSolver(pattern_, {})
+                                                 : multifrontalSolver(pattern_, {});
   solver_->use(threads_);
 }
 
@@ -236,7 +236,7 @@ bool SparseContact::factorise(const std::vector<char>& active) {
   ++factorisations_;
   active_ = active;
   if (solver_->factorise(values_)) return true;
-  if (!pattern_.symmetric && engine_ == LinearEngine::multifrontal) {
+  if (!pattern_.symmetric && engine_ != LinearEngine::suitesparse) {
     useSuiteSparse();  // UMFPACK pivots in the whole matrix
     active_ = active;
     if (solver_->factorise(values_)) return true;

@@ -288,24 +288,29 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   return true;
 }
 
-void StepSystem::useSuiteSparse() {
-  for (CondensedBody& body : bodies_) body.useSuiteSparse();
+bool StepSystem::inSinglePrecision() const {
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [](const CondensedBody& body) { return body.inSinglePrecision(); });
+}
+
+void StepSystem::useNextEngine() {
+  for (CondensedBody& body : bodies_) body.useNextEngine();
   if (sparse()) sparse_->useSuiteSparse();
 }
 
 SolverMemory StepSystem::memory() const {
   SolverMemory memory;
   for (const CondensedBody& body : bodies_) {
-    memory.libraries.push_back(body.usesSuiteSparse() ? 1 : 0);
+    memory.engines.push_back(static_cast<char>(body.enginesGivenUp()));
     memory.elasticFactors.push_back(body.elasticFactors() ? 1 : 0);
   }
   return memory;
 }
 
 void StepSystem::resume(const SolverMemory& memory) {
-  for (size_t b = 0; b < memory.libraries.size(); ++b) {
-    if (memory.libraries[b] != 0) {
-      bodies_[b].useSuiteSparse();
+  for (size_t b = 0; b < memory.engines.size(); ++b) {
+    for (int i = 0; i < memory.engines[b]; ++i) {
+      bodies_[b].useNextEngine();
       if (sparse()) sparse_->useSuiteSparse();
     }
     // Without reductions factors are made and counted in every solve.

@@ -136,8 +136,10 @@ class StepSystem {
 
   [[nodiscard]] Threads& threads() const { return threads_; }
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
-  /// Uses CHOLMOD or UMFPACK from now on.
-  void useSuiteSparse();
+  /// Whether any body has factors that leave more than rounding, which linear solves with them take away.
+  [[nodiscard]] bool inSinglePrecision() const;
+  /// Uses double precision from now on; where that was in use, CHOLMOD or UMFPACK.
+  void useNextEngine();
   /// The state of the solver itself that a run needs to resume as if it had not stopped.
   [[nodiscard]] SolverMemory memory() const;
   void resume(const SolverMemory& memory);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "linear/elimination.h"
+#include "linear/multifrontal.h"
 #include "unit/dense_reference.h"
 
 namespace mortier::condensing_solver_test {
@@ -122,6 +123,36 @@ TEST(CondensingSolver, threadsChangeNothing) {
         EXPECT_TRUE(S == solver->schurComplement() && x == y) << count << " threads, symmetric " << symmetric;
       }
     }
+  }
+}
+
+// Whatever the units: values and forces are scaled.
+TEST(CondensingSolver, singlePrecisionIsCorrectedToRounding) {
+  constexpr int side = 60;
+  std::mt19937 random(9);
+  Grid system(random, side, true);
+  std::vector<int> kept(side);
+  std::iota(kept.begin(), kept.end(), 0);
+  const Vector solution = Vector::LinSpaced(side * side, -1, 2);
+  const std::vector<double> values = system.values;
+  for (const double unit : {1.0, 0x1p150, 0x1p-150}) {
+    for (size_t k = 0; k < values.size(); ++k) system.values[k] = unit * values[k];
+    const Vector force = system.times(solution);
+    const auto solver = singleSolver(system.pattern, kept);
+    ASSERT_TRUE(solver->factorise(system.values));
+    Vector x = Vector::Zero(solution.size());
+    std::vector<double> errors;
+    for (int i = 0; i < 4; ++i) {
+      Vector y = force - system.times(x);
+      solver->condense(y);
+      y(kept) = solver->schurComplement().partialPivLu().solve(y(kept)).eval();
+      solver->expand(y);
+      x += y;
+      errors.push_back((x - solution).cwiseAbs().maxCoeff());
+    }
+    EXPECT_GT(errors.front(), 1e-9);  // single precision indeed
+    EXPECT_LE(errors.front(), 1e-4);
+    EXPECT_LE(errors.back(), tolerance);
   }
 }
 
