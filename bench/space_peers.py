@@ -1,9 +1,9 @@
 """One body in space in every code of bench/peers: its stiffness made, factorised and solved once.
 
-A cube of Kuhn's tetrahedra with quadratic displacements, held below, under a pressure that varies on top. Each
-code reads the same vertices and tetrahedra; FreeFEM takes CHOLMOD, the fastest of its direct solvers here,
-GetFEM MUMPS, CalculiX SPOOLES. What contact in space costs beside it is not compared: FreeFEM and GetFEM have
-no contact of two surfaces by exact integrals, CalculiX a penalty.
+A cube of Kuhn's tetrahedra with quadratic displacements, held below, under a pressure that varies on top.
+Each code reads the same vertices and tetrahedra; FreeFEM takes CHOLMOD, the fastest of the direct solvers
+that Debian's package has, GetFEM MUMPS, CalculiX SPOOLES. What contact in space costs beside it is not
+compared: FreeFEM and GetFEM have no contact of two surfaces by exact integrals, CalculiX a penalty.
 """
 import itertools
 import json
@@ -41,7 +41,8 @@ cout << "corner " << w(1, 1, 1) << endl;
 GETFEM = """import sys
 import getfem as gf
 import numpy as np
-points, tetrahedra, top, bottom = (np.load(name + ".npy") for name in ("points", "tetrahedra", "top", "bottom"))
+names = "points", "tetrahedra", "top", "bottom"
+points, tetrahedra, top, bottom = (np.load(name + ".npy") for name in names)
 mesh = gf.Mesh("empty", 3)
 mesh.add_convex(gf.GeoTrans("GT_PK(3,1)"), np.ascontiguousarray(points[tetrahedra].transpose(2, 1, 0)))
 mesh.set_region(1, bottom)
@@ -93,7 +94,8 @@ class Cube:
         lines += [f"{x!r} {y!r} {z!r} 0" for x, y, z in self.points.tolist()]
         lines += [f"Tetrahedra {len(self.tetrahedra)}"]
         lines += [f"{a} {b} {c} {d} 0" for a, b, c, d in (self.tetrahedra + 1).tolist()]
-        triangles = [(*each, label) for label in (BOTTOM, TOP) for each in (self.triangles(label) + 1).tolist()]
+        triangles = [(*each, label) for label in (BOTTOM, TOP)
+                     for each in (self.triangles(label) + 1).tolist()]
         lines += [f"Triangles {len(triangles)}"] + [f"{a} {b} {c} {label}" for a, b, c, label in triangles]
         path.write_text("\n".join([*lines, "End"]) + "\n")
 
@@ -113,7 +115,8 @@ def write_calculix(cube, path):
     lines += [f"{i}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(points.tolist(), 1)]
     lines += ["*ELEMENT, TYPE=C3D10, ELSET=BODY"]
     lines += [f"{i}, " + ", ".join(map(str, each)) for i, each in enumerate((tetrahedra + 1).tolist(), 1)]
-    lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{YOUNG}, {POISSON}", "*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
+    lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{YOUNG}, {POISSON}",
+              "*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
     lines += ["*BOUNDARY"] + [f"{i}, 1, 3" for i in np.flatnonzero(points[:, 2] == 0) + 1]
     corner = np.flatnonzero((points == 1).all(1))[0] + 1
     lines += ["*NSET, NSET=CORNER", str(corner), "*STEP", "*STATIC, SOLVER=SPOOLES", "*CLOAD"]
@@ -171,7 +174,8 @@ def run_freefem(program, folder):
     if shutil.which(program) is None:
         raise RunFailure(f"{program} is not installed (Debian package freefem++)")
     (folder / "cube.edp").write_text(FREEFEM.format(young=YOUNG, poisson=POISSON, bottom=BOTTOM, top=TOP))
-    cost, output = measured([program, "-nw", "-ne", "-v", "0", "cube.edp"], cwd=folder, environment=ONE_THREAD)
+    cost, output = measured([program, "-nw", "-ne", "-v", "0", "cube.edp"], cwd=folder,
+                            environment=ONE_THREAD)
     return cost, corner_of(output)
 
 

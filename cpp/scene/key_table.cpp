@@ -239,9 +239,9 @@ method | | `"newton"` | `"newton"`, `"penalty-duality"` | how a step is solved: 
 tolerance | | 1e-10 | between 0 and 1 | material residual of a converged step, over the yield stress (or the
   largest stress of the body, where that is larger)
 max_iterations | | 4000; penalty-duality 5000 | integer >= 1 | linear solves in one step before it is given up
-linear | | `"multifrontal"` | `"multifrontal"`, `"suitesparse"`, `"single"` | our own factorisation (SuiteSparse
-  where it fails), SuiteSparse only, or our own in single precision with corrections, where bodies in space have
-  a symmetric tangent; large linear bodies in space always have it
+linear | | `"multifrontal"` | `"multifrontal"`, `"suitesparse"`, `"single"` | our own factorisation
+  (SuiteSparse where it fails), SuiteSparse only, or our own in single precision, corrected, where bodies in
+  space have a symmetric tangent; large linear bodies in space always have it
 distributed_from | | 4000 | integer >= 1 | under `mpirun`: equations between the parts of the processes from
   which on their factor is distributed ([scaling.md](scaling.md#the-factor-of-the-skeleton))
 reduce | | true | true, false | leave out what changes nothing ([theory.md](theory.md), "What is left out");

@@ -23,8 +23,8 @@ class Peers(InFolder):
     def test_small_problems(self):
         done = subprocess.run([sys.executable, str(ROOT / "bench" / "peers"), "--small", "--problems",
                                "patch",
-                               "separation", "cube", "--json", str(self.folder / "rows.json")], capture_output=True,
-                              text=True, env={**os.environ, "MORTIER": PROGRAM})
+                               "separation", "cube", "--json", str(self.folder / "rows.json")],
+                              capture_output=True, text=True, env={**os.environ, "MORTIER": PROGRAM})
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = json.loads(self.read("rows.json"))
         self.assertEqual(len(rows), 18)

@@ -24,7 +24,8 @@ SEES["commands"] = {*SEES["lint"], "lint", "adapt", "bound", "report"}
 SEES["ranks"] = {"base", "linear"}  # beside all others: linked with mortier-mpi only
 
 # Headers of libraries, and the only files that include them.
-LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|lapack": r"linear/\w+\.cpp|linear/cholmod_common\.h",
+LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|lapack":
+             r"linear/\w+\.cpp|linear/(cholmod_common|blas)\.h",
              r"Eigen/.*(Sparse\w*(LU|QR|Cholesky)|Iterative|\w*Support)": r"(linear|contact)/\w+\.cpp",
              r"gmsh": r"mesh/\w+\.cpp", r"muParser|toml\+\+": r"scene/\w+\.cpp",
              r"nlohmann": r"(report|commands)/\w+\.cpp", r"CLI/": r"commands/\w+\.cpp|main\.cpp",
