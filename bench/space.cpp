@@ -2,6 +2,9 @@
 // each part. And two flat plates that touch: the time of their coupling.
 //   build/bench/space [CELLS ...]     cells along an edge of the upper box; the lower one has 13/12 as many
 //   build/bench/space --coupling CELLS ...
+// And a paraboloid pressed on a block (Hertz), then further by a tenth and by three tenths: active sets.
+//   build/bench/space --sets CELLS ...
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +14,7 @@
 
 #include "material/space.h"
 #include "mesh/space_shapes.h"
+#include "solver/step_system.h"
 #include "time/march.h"
 
 using namespace mortier;
@@ -67,12 +71,58 @@ void measureCoupling(int cells) {
   std::printf("%3d %6d rows   coupling %6.2f\n", cells, model.interfaces[0].rows(), processorTime() - start);
 }
 
+void countSets(int cells) {
+  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
+  const SpaceDatum approach = [](const SpacePoint&, double t) { return -0.02 * t; };
+  const auto rounded = [&](TetrahedronMesh mesh) {
+    for (SpacePoint& x : mesh.vertices) x.z() += (1 - x.z()) * x.head<2>().squaredNorm() / 6;
+    return mesh;
+  };
+  const auto held = [&](int label, int component) { return SpaceCondition{label, component, zero}; };
+  Model model;
+  model.bodies.emplace_back("ball", rounded(cuboidMesh({{0, 0, 0}, {1, 1, 1}, {cells, cells, cells / 2}})),
+                            spaceElasticMaterial({1000, 0.3}),
+                            SpaceConditions{{held(4, spaceX), held(5, spaceY), {3, spaceZ, approach}}, {}},
+                            1);
+  model.bodies.emplace_back("block", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {cells + 3, cells + 3, cells / 2}}),
+                            spaceElasticMaterial({1000, 0.3}),
+                            SpaceConditions{{held(4, spaceX), held(5, spaceY), held(1, spaceZ)}, {}}, 1);
+  addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
+  StepSystem system(model, {});
+  const State state = initialState(model);
+  Iterate iterate = startingIterate(state);
+  std::printf("%3d %6d rows", cells, model.interfaces[0].rows());
+  for (const double time : {1.0, 1.1, 1.43}) {
+    const StepData data{time, 0, {}};
+    const Step step = system.step(state, data);
+    prescribe(model, step, iterate);
+    StepOutcome outcome;
+    const double start = processorTime();
+    const auto factorised = system.linearise(step, iterate, 0, false).factorise(outcome);
+    const double made = processorTime();
+    if (!factorised) return;
+    StepSystem::Condensed condensed = factorised->condense(step, iterate);
+    const double begin = processorTime();
+    const ContactSolution contact = condensed.solveContact();
+    std::printf("   %s%d sets, %d closed (factors %.2f, contact %.2f)", time == 1 ? "cold " : "warm ",
+                contact.pivots, static_cast<int>(std::count(contact.active.begin(), contact.active.end(), 1)),
+                made - start, processorTime() - begin);
+    if (!std::move(condensed).expand(contact, iterate, outcome)) return;
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "--coupling") == 0) {
     std::printf("cells, rows of contact; processor time [s]\n");
     for (int i = 2; i < argc; ++i) measureCoupling(std::atoi(argv[i]));
+    return 0;
+  }
+  if (argc > 1 && std::strcmp(argv[1], "--sets") == 0) {
+    std::printf("cells, rows of contact, active sets; processor time [s]\n");
+    for (int i = 2; i < argc; ++i) countSets(std::atoi(argv[i]));
     return 0;
   }
   std::printf("cells, unknowns of both bodies, rows of contact; wall time [s]\n");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "base/child_process.h"
 #include "base/error.h"
@@ -113,6 +114,62 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
   return order;
 }
 
+/// Of a factor: the order, and of each supernode its first column and rows.
+struct Supernodes {
+  std::vector<int> permutation, super, rowStart, rows;
+};
+
+/// \param Index  of CHOLMOD's numbers \returns nothing where they do not suffice
+template <class Index>
+std::optional<Supernodes> supernodesOf(Columns& columns) {
+  constexpr bool isLong = !std::is_same_v<Index, int>;
+  std::vector<Index> start(isLong ? columns.start.begin() : columns.start.end(), columns.start.end());
+  std::vector<Index> rows(isLong ? columns.rows.begin() : columns.rows.end(), columns.rows.end());
+  cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
+  if (isLong) {
+    A.p = start.data();
+    A.i = rows.data();
+    A.itype = CHOLMOD_LONG;
+  }
+  std::vector<Index> identity(A.nrow);
+  std::iota(identity.begin(), identity.end(), 0);
+  cholmod_common common;
+  if (isLong)
+    cholmod_l_start(&common);
+  else
+    cholmod_start(&common);
+  common.print = 0;
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.nrelax[0] = 2;
+  common.nrelax[1] = 8;
+  common.nrelax[2] = 24;
+  const UninterruptibleCall deaf;
+  cholmod_factor* L = nullptr;
+  if constexpr (isLong)
+    L = cholmod_l_analyze_p(&A, identity.data(), nullptr, 0, &common);
+  else
+    L = cholmod_analyze_p(&A, identity.data(), nullptr, 0, &common);
+  std::optional<Supernodes> result;
+  if (L != nullptr && L->is_super != 0) {
+    const auto taken = [](const void* numbers, size_t count) {
+      const auto* first = static_cast<const Index*>(numbers);
+      return std::vector<int>(first, first + count);
+    };
+    result = {taken(L->Perm, A.nrow), taken(L->super, L->nsuper + 1), taken(L->pi, L->nsuper + 1),
+              taken(L->s, L->ssize)};
+  }
+  if (isLong) {
+    cholmod_l_free_factor(&L, &common);
+    cholmod_l_finish(&common);
+  } else {
+    cholmod_free_factor(&L, &common);
+    cholmod_finish(&common);
+  }
+  return result;
+}
+
 }  // namespace
 
 Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside) {
@@ -126,27 +183,13 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
   std::vector<int> position(result.size);
   for (int i = 0; i < result.size; ++i) position[order[i]] = i;
 
-  // Supernodes. The kept equations couple as a clique, so they end up together in the last one.
-  CholmodCommon common;
-  common->supernodal = CHOLMOD_SUPERNODAL;
-  common->nmethods = 1;
-  common->method[0].ordering = CHOLMOD_GIVEN;
-  common->nrelax[0] = 2;
-  common->nrelax[1] = 8;
-  common->nrelax[2] = 24;
-  const UninterruptibleCall deaf;
+  // The kept equations couple as a clique, so they end up together in the last supernode.
   Columns columns = permuted(pattern, position, result.size, interior);
-  cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
-  std::vector<int> identity(result.size);
-  std::iota(identity.begin(), identity.end(), 0);
-  const auto release = [&](cholmod_factor* L) { cholmod_free_factor(&L, &common); };
-  const std::unique_ptr<cholmod_factor, decltype(release)> L(
-      cholmod_analyze_p(&A, identity.data(), nullptr, 0, &common), release);
-  if (!L || L->is_super == 0) throw std::runtime_error("symbolic analysis of the tangent failed in CHOLMOD");
-  const auto* permutation = static_cast<const int*>(L->Perm);
-  const auto* super = static_cast<const int*>(L->super);
-  const auto* rowStart = static_cast<const int*>(L->pi);
-  const auto* rows = static_cast<const int*>(L->s);
+  std::optional<Supernodes> found = supernodesOf<int>(columns);
+  if (!found) found = supernodesOf<SuiteSparse_long>(columns);  // factors of more than 2^31 numbers
+  if (!found) throw std::runtime_error("symbolic analysis of the tangent failed in CHOLMOD");
+  columns = {};
+  const auto& [permutation, super, rowStart, rows] = *found;
   result.order.resize(result.size);
   for (int i = 0; i < result.size; ++i) {
     result.order[i] = order[permutation[i]];
@@ -156,12 +199,12 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
     if (position[kept[k]] != interior + k)
       throw std::runtime_error("kept equations were moved by the analysis");
 
-  const int fronts = static_cast<int>(L->nsuper);
+  const int fronts = static_cast<int>(super.size()) - 1;
   std::vector<int> frontOf(result.size);
   result.fronts.resize(fronts);
   for (int s = 0; s < fronts; ++s) {
     Front& front = result.fronts[s];
-    front.rows.assign(rows + rowStart[s], rows + rowStart[s + 1]);
+    front.rows.assign(rows.begin() + rowStart[s], rows.begin() + rowStart[s + 1]);
     front.pivots = std::min(super[s + 1], interior) - super[s];
     std::fill(frontOf.begin() + super[s], frontOf.begin() + super[s + 1], s);
   }

@@ -1,5 +1,7 @@
 #include "scene/build.h"
 
+#include "scene/memory_need.h"
+
 namespace mortier {
 
 namespace {
@@ -25,6 +27,7 @@ Model buildModel(ResolvedScene& scene) {
   }
   scene.meshes.clear();
   scene.spaceMeshes.clear();
+  if (description.inSpace()) requireMemory(memoryNeed(model, description.solver), false);
   for (const ContactDescription& contact : description.contacts) {
     addContact(description, contact, model);
   }

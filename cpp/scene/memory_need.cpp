@@ -80,16 +80,16 @@ MemoryNeed memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std:
 
 namespace {
 
-/// In space, by what solids of six tetrahedra a cell need: 1.2e7 numbers of a factor of 26,000 equations,
-/// growing with the power 1.4.
+/// In space, by what solids of six tetrahedra a cell need: 2e7 numbers of a factor of 26,000 equations and of
+/// what its fronts pass on, growing with the power 1.4.
 MemoryNeed needInSpace(const Model& model, const SolverOptions& options) {
   constexpr double program = 12 << 20;
   double bytes = program;
   double conditions = 0;
   for (const Body& body : model.bodies) {
-    constexpr double ofAnEquation = 2000;
+    constexpr double ofAnEquation = 2500;
     const bool single = engineOf(model, body, options) == LinearEngine::single;
-    bytes += (single ? sizeof(float) : sizeof(double)) * 1.2e7 * std::pow(body.freeDofs() / 26e3, 1.4) +
+    bytes += (single ? sizeof(float) : sizeof(double)) * 2e7 * std::pow(body.freeDofs() / 26e3, 1.4) +
              ofAnEquation * body.dofs();
   }
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
