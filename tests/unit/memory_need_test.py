@@ -90,6 +90,35 @@ class MemoryNeed(InFolder):
         self.assertEqual(check.returncode, 2, check.stderr)
         self.assertIn("needs about 45.8 GiB", check.stdout)
 
+    def in_space(self, cells, **options):
+        self.write(f"""dimension = 3
+degree = 2
+[[body]]
+name = "cube"
+mesh = {{ shape = "cuboid", upper = [1, 1, 1], cells = {cells} }}
+material = {{ young = 1e3, poisson = 0.3 }}
+boundary = [ {{ label = "bottom", ux = 0, uy = 0, uz = 0 }}, {{ label = "top", tz = "-1 - x" }} ]
+[time]
+end = 1
+steps = 1
+""")
+        return self.mortier("run", "scene.toml", "--out", "out", **options)
+
+    def test_a_body_in_space(self):
+        told = self.in_space(10).stdout
+        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        self.assertIn(", factors in single precision, corrected", told)
+        need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
+        print(f"27,000 unknowns in space: told {need:.0f} MiB, took {peak:.0f} MiB")
+        self.assertLess(abs(need - peak), peak / 4)
+
+    def test_what_cannot_fit_in_space_is_refused_without_contact_too(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        refused = self.in_space(25, code=2, preexec_fn=limit).stderr
+        self.assertRegex(refused, r"the run needs about \S+ GiB of memory, expected at most the 2 GiB that are")
+
     def test_friction_is_told_as_what_takes_the_memory(self):
         self.strips(400, "friction = 0.3\n")
         self.write(self.read("scene.toml").replace("-sin(2*x)*t - 0.01*t", "-t"))
