@@ -117,7 +117,8 @@ steps = 1
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
 
         refused = self.in_space(25, code=2, preexec_fn=limit).stderr
-        self.assertRegex(refused, r"the run needs about \S+ GiB of memory, expected at most the 2 GiB that are")
+        self.assertRegex(refused,
+                         r"the run needs about \S+ GiB of memory, expected at most the 2 GiB that are")
 
     def test_friction_is_told_as_what_takes_the_memory(self):
         self.strips(400, "friction = 0.3\n")
