@@ -110,7 +110,8 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   const auto isPerBody = [&](const std::vector<char>& flags) {
     return flags.empty() || flags.size() == begin.bodies.size();
   };
-  require(isPerBody(memory.solver.engines) && isPerBody(memory.solver.elasticFactors), "solver memory");
+  require(isPerBody(memory.solver.enginesGivenUp) && isPerBody(memory.solver.elasticFactors),
+          "solver memory");
   require(isTime(memory.begin) && isTime(memory.timeStep) && isTime(memory.controller.timeStep) &&
               isTime(memory.controller.local),
           "step length");

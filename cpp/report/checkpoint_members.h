@@ -47,7 +47,7 @@ MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)
 MORTIER_MEMBERS(SlipAndWork, slip, work)
 MORTIER_MEMBERS(ControllerMemory, trial, shortestInaccurate, crossing, start, timeStep, scale, largest, local,
                 strain, error, worst, slip, missed, pairEnd)
-MORTIER_MEMBERS(SolverMemory, engines, elasticFactors)
+MORTIER_MEMBERS(SolverMemory, enginesGivenUp, elasticFactors)
 MORTIER_MEMBERS(MarchMemory, begin, run, increments, timeStep, solver, controller)
 MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accuracy)
 

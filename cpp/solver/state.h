@@ -41,7 +41,7 @@ struct State {
 
 /// The state of the solver itself that a run needs to resume, per body; empty before the first step.
 struct SolverMemory {
-  std::vector<char> engines;         ///< of linear algebra that were given up, one after the other: how many
+  std::vector<char> enginesGivenUp;  ///< of linear algebra, one after the other: how many
   std::vector<char> elasticFactors;  ///< whether the factors are those of elasticity
 };
 

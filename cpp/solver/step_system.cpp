@@ -301,15 +301,15 @@ void StepSystem::useNextEngine() {
 SolverMemory StepSystem::memory() const {
   SolverMemory memory;
   for (const CondensedBody& body : bodies_) {
-    memory.engines.push_back(static_cast<char>(body.enginesGivenUp()));
+    memory.enginesGivenUp.push_back(static_cast<char>(body.enginesGivenUp()));
     memory.elasticFactors.push_back(body.elasticFactors() ? 1 : 0);
   }
   return memory;
 }
 
 void StepSystem::resume(const SolverMemory& memory) {
-  for (size_t b = 0; b < memory.engines.size(); ++b) {
-    for (int i = 0; i < memory.engines[b]; ++i) {
+  for (size_t b = 0; b < memory.enginesGivenUp.size(); ++b) {
+    for (int i = 0; i < memory.enginesGivenUp[b]; ++i) {
       bodies_[b].useNextEngine();
       if (sparse()) sparse_->useSuiteSparse();
     }

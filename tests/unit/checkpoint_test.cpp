@@ -73,7 +73,7 @@ TEST(Checkpoint, ofAnotherModelIsRefused) {
       [](Checkpoint& c) { c.last.status = static_cast<Status>(77); },
       [](Checkpoint& c) { c.memory.increments[0].pop_back(); },
       [](Checkpoint& c) { c.memory.increments[0][1].displacement.low.resize(1); },
-      [](Checkpoint& c) { c.memory.solver.engines.resize(5); },
+      [](Checkpoint& c) { c.memory.solver.enginesGivenUp.resize(5); },
       [&](Checkpoint& c) { c.memory.controller.timeStep = nan; },
       [&](Checkpoint& c) { c.memory.timeStep = -1; },
       [](Checkpoint& c) { c.accuracy.total.stress.resize(1); },
