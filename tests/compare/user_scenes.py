@@ -314,9 +314,11 @@ class UserSpaceScene(UserScene):
         self.files["ball.geo"] = BALL.read_text()
         size = self.rng.choice([0.05, 0.1])
         self.body("ball", f'{{ file = "ball.geo", parameters = {{ f = {size}, h = 0.3 }} }}',
-                  'label = "left", ux = 0', 'label = "front", uy = 0', f'label = "top", uz = {self.moved(0.02)}')
-        self.body("block", f'{{ shape = "cuboid", cells = 4, lower = [0, 0, -1], upper = [1, 1, 0] }}',
-                  'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "left", ux = 0', 'label = "front", uy = 0')
+                  'label = "left", ux = 0', 'label = "front", uy = 0',
+                  f'label = "top", uz = {self.moved(0.02)}')
+        self.body("block", '{ shape = "cuboid", cells = 4, lower = [0, 0, -1], upper = [1, 1, 0] }',
+                  'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "left", ux = 0',
+                  'label = "front", uy = 0')
         self.pair(("ball", '"arc"'), ("block", '"top"'))
 
     def alone(self):
