@@ -68,7 +68,7 @@ std::string anisotropies(const SceneDescription& scene) {
     if (const auto* o = std::get_if<Orthotropy>(&own->moduli)) {
       const auto orOne = [](double x, double other) { return std::isnan(x) ? other : x; };
       text += with("orthotropy(" + begin, {o->young[0], o->young[1], orOne(o->young[2], 1), o->poisson[0],
-                                           orOne(o->poisson[1], 0), orOne(o->poisson[2], 0), o->shear});
+                                           orOne(o->poisson[1], 0), orOne(o->poisson[2], 0), o->shear[0]});
       continue;
     }
     const Matrix& c = std::get<Matrix>(own->moduli);

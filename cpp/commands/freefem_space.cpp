@@ -32,6 +32,8 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
   for (const BodyDescription& body : scene.bodies) {
     if (body.material.flows() && body.material.as<Viscoplasticity>() == nullptr)
       refuse(body.where + ": body " + body.name + ": material: law", "\"elastic\" or \"perzyna\"");
+    if (body.temperature) refuse(body.temperature->where + ": temperature", "none");
+    if (body.material.anisotropy) refuse(body.material.anisotropy->where, "\"isotropic\"");
     for (const ConditionDescription& c : body.conditions) {
       if (c.pointInSpace) refuse(c.where + ": body " + body.name + ": a support at a point", "labels");
       if (c.kind == Kind::displacement && c.component == spaceNormal)
@@ -39,6 +41,7 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
     }
   }
   for (size_t k = 0; k < scene.contacts.size(); ++k) {
+    if (scene.contacts[k].gap) refuse(scene.contacts[k].where + ": contact: gap", "distances as meshed");
     if (scene.contacts[k].initial == InitialGap::close)
       refuse(scene.contacts[k].where + ": contact: initial = \"close\"", "distances as meshed");
     const ContactPair& pair = model.interfaces[k].pair();

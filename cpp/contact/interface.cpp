@@ -238,8 +238,10 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     for (int j = 0; j < coupling.N.outerSize(); ++j)
       for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.N, j); entry; ++entry)
         entries.given.emplace_back(firstRow + static_cast<int>(entry.row()), part.number(j), entry.value());
-    for (int j = 0; j < part.traceNodes(); ++j)
-      gapNodes_.emplace_back(part.number(j), nonmortarMesh.nodes.places[part.number(j)]);
+    for (int j = 0; j < part.traceNodes(); ++j) {
+      const Point& place = nonmortarMesh.nodes.places[part.number(j)];
+      gapNodes_.emplace_back(part.number(j), SpacePoint(place.x(), place.y(), 0));
+    }
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
   C1_.resize(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
@@ -248,7 +250,9 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   distance_ = Eigen::Map<const Vector>(distances.data(), n);
   lengths_ = Eigen::Map<const Vector>(lengths.data(), n);
   if (!options.gapInTime) return;
-  gapInTime_ = options.gapInTime;
+  gapInTime_ = [gap = options.gapInTime](const SpacePoint& x, double t) {
+    return gap(Point(x.x(), x.y()), t);
+  };
   N_ = assembled(n, nonmortarMesh.nodes.count(), entries.given);
 }
 
@@ -296,17 +300,6 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   if (distanceMoves()) columns(result.N_, 1, nonmortar, count[0]);
   result.penetration_.renumber(nonmortar, mortar);
   return result;
-}
-
-Vector ContactInterface::nodalGap(double t) const {
-  if (!distanceMoves()) return {};
-  Vector gap = Vector::Zero(N_.cols());
-  for (const auto& [node, place] : gapNodes_) gap[node] = gapInTime_(place, t);
-  return gap;
-}
-
-Vector ContactInterface::distance(double t) const {
-  return distanceMoves() ? Vector(N_ * nodalGap(t)) : distance_;
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar, double t) const {

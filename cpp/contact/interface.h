@@ -67,9 +67,11 @@ struct InterfaceOptions {
   std::function<bool(int, const Point&)> nonmortarHeld = {};
   std::function<bool(int, const Point&)> mortarHeld = {};
   Friction friction = {};
-  bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
-  double stiffness = 1;       ///< of the nonmortar over that of the mortar body (coupling `coarsened`)
-  bool follows = false;       ///< whether rows follow the bodies (follow()); not with a `gap`
+  bool axisymmetric = false;   ///< whether the bodies turn about the axis x = 0: forces are in [N] then
+  double stiffness = 1;        ///< of the nonmortar over that of the mortar body (coupling `coarsened`)
+  bool follows = false;        ///< whether rows follow the bodies (follow()); not with a `gap`
+  SpaceDatum gapInSpace = {};  ///< in place of `gap` and `gapInTime`
+  bool gapMoves = false;       ///< whether that changes in time
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
@@ -91,6 +93,8 @@ struct SpaceInterfaceOptions {
   using Held = std::function<bool(int node, const SpacePoint& direction)>;
   Held nonmortarHeld = {};
   Held mortarHeld = {};
+  SpaceDatum gap = {};  ///< distance at a nonmortar node instead of that as meshed [m]
+  bool gapMoves = false;
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
@@ -216,13 +220,15 @@ class ContactInterface {
     Eigen::SparseMatrix<double> rows;                   ///< points x rows: the row functions
     std::vector<SpacePoint> normals;
     Vector areas;      ///< of the cells [m^2]
-    Vector distances;  ///< of the bodies [m]
+    Vector distances;  ///< of the bodies at t = 0 [m]
     Vector sizes;      ///< of the nonmortar triangles: a side [m]
 
     /// u1 - u2 at the points: 3 x points [m].
     [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar) const;
   };
   [[nodiscard]] const SurfacePoints& surfacePoints() const { return points_; }
+  /// Of the bodies at these points [m].
+  [[nodiscard]] Vector pointDistances(double t) const;
   /// The common refinement of the two lines.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
@@ -261,9 +267,9 @@ class ContactInterface {
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
   Datum given_;
-  std::function<double(const Point&, double t)> gapInTime_;
-  std::vector<std::pair<int, Point>> gapNodes_;  ///< where it is given, with their places
-  Eigen::SparseMatrix<double> N_;                ///< g0 = N times what is given by node
+  SpaceDatum gapInTime_;
+  std::vector<std::pair<int, SpacePoint>> gapNodes_;  ///< where it is given, with their places
+  Eigen::SparseMatrix<double> N_;                     ///< g0 = N times what is given by node
   bool axisymmetric_ = false;
   Vector lengths_;
   double overlap_ = 0;

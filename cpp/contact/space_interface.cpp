@@ -19,7 +19,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "contact/interface.h"
+#include "contact/interface_entries.h"
 #include "contact/surface.h"
 #include "contact/vertex_functions.h"
 
@@ -284,16 +284,28 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
   result.mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
   const double smaller = std::min(nonmortar.extent, mortar.extent);
-  result.settleDistance(options.initial, smaller, names);
+  if (!options.gap) {
+    result.settleDistance(options.initial, smaller, names);
+    return result;
+  }
+  result.N_ = rowsOfDistance(pair.coupling, result.C1_, result.spaceNormals_, result.nonmortarNodes_);
+  for (int node = 0; node < nonmortarMesh.nodes.count(); ++node)
+    if (result.N_.col(node).nonZeros() > 0 || result.points_.traces[0].col(node).nonZeros() > 0)
+      result.gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
+  result.gapInTime_ = options.gap;
+  result.distance_ = result.distance(0);
+  result.points_.distances = result.pointDistances(0);
+  if (!options.gapMoves) result.gapInTime_ = {};
   return result;
 }
 
 double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t) const {
   if (dimension_ == 2) return penetration_.of(uNonmortar, uMortar, nodalGap(t));
   const Matrix jump = points_.jump(uNonmortar, uMortar);
+  const Vector apart = pointDistances(t);
   double sum = 0;
   for (Eigen::Index i = 0; i < jump.cols(); ++i)
-    sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - points_.distances[i]);
+    sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - apart[i]);
   return sum;
 }
 

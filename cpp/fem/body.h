@@ -35,13 +35,7 @@ struct BodyForce {
   Datum value;
 };
 
-/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain or around the axis), in a
-/// region or everywhere [Pa]; later ones replace earlier ones.
-struct InitialStress {
-  int component = 0;
-  std::optional<int> region;
-  Datum value;
-};
+using InitialStress = InitialStressOf<Datum>;
 
 /// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
 /// Its displacements are those of linear theory, u = theta x (x - at): rows of contact keep their normals, so
@@ -59,8 +53,9 @@ struct Conditions {
   std::vector<Traction> tractions;
   std::vector<BodyForce> forces;
   std::vector<InitialStress> initialStresses = {};
-  Datum temperature = {};  ///< above that at which nothing is strained [K]; none where empty
-  Matrix expansion = {};   ///< thermal strain per kelvin, components of the tensor x points [1/K]
+  Datum temperature = {};  ///< above that at which nothing is strained [K]
+  /// Thermal strain per kelvin, components of the tensor x points [1/K]; empty where there is no temperature.
+  Matrix expansion = {};
   std::optional<RigidMotion> rigid = {};  ///< of a body that has no material, and none of the above
 };
 
@@ -194,10 +189,12 @@ class Body {
   /// Stress at t = 0 (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
   /// Whether the body has a temperature that strains it.
-  [[nodiscard]] bool heated() const { return conditions_.temperature && conditions_.expansion.rows() > 0; }
+  [[nodiscard]] bool heated() const { return expansion().rows() > 0; }
   /// Thermal strain at time t (components x points) [-]. \pre heated()
   [[nodiscard]] Matrix thermalStrain(double t) const;
-  [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
+  [[nodiscard]] bool hasInitialStress() const {
+    return !conditions_.initialStresses.empty() || (space_ && !space_->conditions().initialStresses.empty());
+  }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
   /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where
@@ -260,6 +257,11 @@ class Body {
   void findSteadyLoads();
   /// A datum at the points of the triangles: its projection onto what stresses can be.
   [[nodiscard]] Vector atPoints(const Datum& datum, double t) const;
+  /// Its values there, in space.
+  [[nodiscard]] Vector atPoints(const SpaceDatum& datum, double t) const;
+  [[nodiscard]] const Matrix& expansion() const {
+    return space_ ? space_->conditions().expansion : conditions_.expansion;
+  }
 
   std::string name_;
   std::shared_ptr<const SpaceElements> space_;  ///< null in the plane

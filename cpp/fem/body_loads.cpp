@@ -156,12 +156,22 @@ Vector Body::atPoints(const Datum& datum, double t) const {
   return values;
 }
 
+Vector Body::atPoints(const SpaceDatum& datum, double t) const {
+  Vector values(points());
+  for (int i = 0; i < points(); ++i) values[i] = datum(space_->placeOf(i), t);
+  return values;
+}
+
 Matrix Body::thermalStrain(double t) const {
   Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
-  const std::vector<Point> places = this->places();
-  for (int i = 0; i < points(); ++i)
-    strain.col(i).head(conditions_.expansion.rows()) =
-        conditions_.expansion.col(i) * conditions_.temperature(places[i].x(), places[i].y(), t);
+  Vector kelvin(points());
+  if (space_) {
+    kelvin = atPoints(space_->conditions().temperature, t);
+  } else {
+    const std::vector<Point> places = this->places();
+    for (int i = 0; i < points(); ++i) kelvin[i] = conditions_.temperature(places[i].x(), places[i].y(), t);
+  }
+  strain.topRows(expansion().rows()) = expansion() * kelvin.asDiagonal();
   if (patches_) {
     // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
     Vector theta = std::numbers::sqrt2 * strain.row(0);
@@ -172,26 +182,34 @@ Matrix Body::thermalStrain(double t) const {
 }
 
 Matrix Body::initialStress() const {
-  const int components = material_->components();
-  if (space_) return Matrix::Zero(components, points());
   // By component, those beyond the plane as far as they are given.
-  Matrix given = Matrix::Zero(components, points());
+  Matrix given = Matrix::Zero(std::max(material_->components(), 4), points());
   std::vector<char> beyond(points(), 0);
-  for (const auto& [component, region, value] : conditions_.initialStresses) {
-    const Vector values = atPoints(value, 0);
-    for (int i = 0; i < points(); ++i) {
-      const size_t triangle = i / pointsOfTriangle();
-      if (region && mesh_.regions[triangle] != *region) continue;
-      given(component, i) = values[i];
-      if (component == 3) beyond[i] = 1;
+  const auto read = [&](const auto& stresses, const std::vector<int>& regions) {
+    for (const auto& [component, region, value] : stresses) {
+      const Vector values = atPoints(value, 0);
+      for (int i = 0; i < points(); ++i) {
+        if (region && regions[i / pointsOfTriangle()] != *region) continue;
+        given(component, i) = values[i];
+        if (component == 3) beyond[i] = 1;
+      }
     }
+  };
+  Matrix stress = Matrix::Zero(material_->components(), points());
+  if (space_) {
+    if (!hasInitialStress()) return stress;
+    read(space_->conditions().initialStresses, space_->mesh().regions);
+    for (int i = 0; i < points(); ++i)
+      stress.col(i).head<6>() = fromSpaceCartesian(SpaceStress(given.col(i)(std::array{0, 1, 3, 2, 4, 5})));
+    return stress;
   }
-  Matrix stress = given;
+  read(conditions_.initialStresses, mesh_.regions);
+  const int tensor = material_->tensorComponents();
   for (int i = 0; i < points(); ++i) {
     const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
     stress.col(i).head<3>() = pqr;
-    if (material_->tensorComponents() > 3 && beyond[i] == 0 && !axisymmetric_)
-      stress(3, i) = material_->outOfPlane(pqr, i);
+    if (tensor > 3)
+      stress(3, i) = beyond[i] != 0 || axisymmetric_ ? given(3, i) : material_->outOfPlane(pqr, i);
   }
   return stress;
 }

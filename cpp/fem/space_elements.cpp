@@ -19,6 +19,14 @@ constexpr std::array<double, 4> gaussPlaces{0.06943184420297371, 0.3300094782075
 constexpr std::array<double, 4> gaussWeights{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
                                              0.1739274225687269};
 
+SpacePoint placeOfPoint(const TetrahedronMesh& mesh, int degree, int point) {
+  SpacePoint place = SpacePoint::Zero();
+  for (int k = 0; k < 4; ++k)
+    place += (degree == 1 ? 0.25 : QuadraticTetrahedron::interior[point % 4][k]) *
+             mesh.vertices[mesh.tetrahedra[degree == 1 ? point : point / 4][k]];
+  return place;
+}
+
 }  // namespace
 
 std::vector<SpaceRulePoint> triangleRule() {
@@ -73,12 +81,14 @@ SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, Spac
 }
 
 SpacePoint SpaceElements::placeOf(int point) const {
-  const auto& vertices = mesh_.tetrahedra[point / pointsOfElement()];
-  SpacePoint place = SpacePoint::Zero();
-  for (int k = 0; k < 4; ++k)
-    place += (nodes_.degree == 1 ? 0.25 : QuadraticTetrahedron::interior[point % 4][k]) *
-             mesh_.vertices[vertices[k]];
-  return place;
+  return placeOfPoint(mesh_, nodes_.degree, point);
+}
+
+std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree) {
+  const auto points = static_cast<int>(mesh.tetrahedra.size()) * (degree == 1 ? 1 : 4);
+  std::vector<SpacePoint> places;
+  for (int point = 0; point < points; ++point) places.push_back(placeOfPoint(mesh, degree, point));
+  return places;
 }
 
 Vector SpaceElements::load(double t) const {
@@ -195,6 +205,7 @@ void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& 
       store(3, plus(xz, zx));
       store(4, plus(yz, zy));
       store(5, plus(plus(xx, yy), zz), root2 * std::numbers::inv_sqrt3);
+      if (strain.rows() > 6) strain(6, i) = shift != nullptr ? -(*shift)(6, i) : 0;
     }
   });
 }
@@ -213,6 +224,7 @@ void SpaceElements::addStressOf(const Vector& d, const Linearisation& law, Matri
         strain +=
             strainOfNode(G[0], G[1], G[2]) * (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0);
       stress.col(i).head<6>() += spaceModuliAt(law.moduli, i) * strain;
+      if (stress.rows() > 6) stress(6, i) += law.beyond.col(i).head<6>().dot(strain);
     }
   });
 }

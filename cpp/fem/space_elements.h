@@ -29,10 +29,22 @@ struct SpaceCondition {
   std::optional<SpacePoint> point = {};  ///< where the vertex is, in place of the label [m]
 };
 
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain, around the axis or in
+/// space, 4: s13, 5: s23), in a region or everywhere [Pa]; later ones replace earlier ones.
+template <class Value>
+struct InitialStressOf {
+  int component = 0;
+  std::optional<int> region;
+  Value value;
+};
+
 struct SpaceConditions {
   std::vector<SpaceCondition> displacements;
   std::vector<SpaceCondition> tractions;
   std::vector<SpaceCondition> forces = {};  ///< per volume, along the axes [N/m^3]; labels have no meaning
+  std::vector<InitialStressOf<SpaceDatum>> initialStresses = {};
+  SpaceDatum temperature = {};  ///< as in Conditions (fem/body.h)
+  Matrix expansion = {};
 };
 
 /// A node of which one motion or more are prescribed.
@@ -46,6 +58,9 @@ struct SpaceSupport {
   /// those of the others.
   Eigen::Matrix3d frame;
 };
+
+/// Places of the quadrature points of all tetrahedra, one after the other [m].
+std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree);
 
 class SpaceElements {
  public:

@@ -98,7 +98,7 @@ class Recovery {
       const SpacePoint x = (space_.placeOf(points[i]) - fit.centre) / fit.size;
       const double weight = degree == 1 ? 1 : 1 / x.norm();
       design.row(i) = weight * monomials(x, degree);
-      values.row(i) = weight * stress_.col(points[i]);
+      values.row(i) = weight * stress_.col(points[i]).head<6>();
     }
     Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
     constexpr double dependent = 1e-2;  // what few points hardly tell is left out, a constant is kept
@@ -137,7 +137,7 @@ ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress) {
   for (Eigen::Index e = 0; e < elements; ++e) recovered.push_back(recovery.at(static_cast<int>(e)));
   ErrorEstimate result{Vector::Zero(elements), 0};
   const auto rule = estimateRule(degree);
-  Matrix off = Matrix::Zero(6, body.points());
+  Matrix off = Matrix::Zero(stress.rows(), body.points());  // what a law remembers is no error
   Matrix all = off;
   Matrix strain;
   // A point of the rule in each element at a time, at the place of a stress point: laws know these alone.
@@ -146,12 +146,13 @@ ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress) {
       const auto N = decltype(element)::shapes(at);
       const Eigen::Map<const Vector> shapes(N.data(), static_cast<Eigen::Index>(N.size()));
       for (Eigen::Index e = 0; e < elements; ++e) {
-        all.col(each * e) = recovered[e] * shapes;
+        all.col(each * e).head<6>() = recovered[e] * shapes;
         off.col(each * e) = all.col(each * e);
         constexpr double far = QuadraticTetrahedron::far;
         for (Eigen::Index q = 0; q < each; ++q)
-          off.col(each * e) -=
-              (each == 1 ? 1 : (at[q] - far) / (QuadraticTetrahedron::near - far)) * stress.col(each * e + q);
+          off.col(each * e).head<6>() -=
+              (each == 1 ? 1 : (at[q] - far) / (QuadraticTetrahedron::near - far)) *
+              stress.col(each * e + q).head<6>();
       }
     });
     const auto energyOf = [&, weight = weight](const Matrix& field, Eigen::Index e) {

@@ -1,10 +1,12 @@
 #include "material/anisotropy.h"
 
+#include <Eigen/Geometry>
 #include <sstream>
 
 #include "base/dense_templates.h"
 #include "base/error.h"
 #include "material/point_material.h"
+#include "material/space.h"
 
 namespace mortier {
 namespace {
@@ -127,12 +129,26 @@ class OfAnyElasticity {
   Square excess_;  ///< F F'
 };
 
-/// From (s11, s22, s12) to (p, q, r), s33 as it is.
+/// From (s11, s22, s12) to (p, q, r), s33 as it is; or from s11, s22, s12, s33, s13, s23 to those of space.
 Matrix basis(Eigen::Index n) {
   constexpr double h = std::numbers::sqrt2 / 2;
   Matrix T = Matrix::Identity(n, n);
-  T.topLeftCorner<3, 3>() << h, h, 0, h, -h, 0, 0, 0, std::numbers::sqrt2;
+  constexpr std::array inSpace{0, 1, 3, 2, 4, 5};
+  if (n < 6)
+    T.topLeftCorner<3, 3>() << h, h, 0, h, -h, 0, 0, 0, std::numbers::sqrt2;
+  else
+    for (int j = 0; j < 6; ++j) T.col(j) = fromSpaceCartesian(SpaceStress::Unit(inSpace[j]));
   return T;
+}
+
+/// Rows and columns of the components in a tensor.
+constexpr std::array tensorRows{0, 1, 0, 2, 0, 1};
+constexpr std::array tensorColumns{0, 1, 1, 2, 2, 2};
+
+Vector componentsOf(const Eigen::Matrix3d& tensor, Eigen::Index n) {
+  Vector components(n);
+  for (int k = 0; k < n; ++k) components[k] = tensor(tensorRows[k], tensorColumns[k]);
+  return components;
 }
 
 /// \throws InputError unless all eigenvalues are positive beyond rounding.
@@ -148,7 +164,7 @@ void requireElliptic(const Matrix& tensor, const std::string& what, const std::s
 }
 
 Eigen::Index componentsIn(Plane plane) {
-  return plane == Plane::stress ? 3 : 4;
+  return plane == Plane::stress ? 3 : plane == Plane::none ? 6 : 4;
 }
 
 /// Of isotropic elasticity without Poisson's effect, E = c 1.
@@ -160,11 +176,13 @@ Elasticity stiffestOf(const Anisotropy& anisotropy) {
 template <class Law>
 std::shared_ptr<const Material> make(const Law& law, const Anisotropy& anisotropy, const Elasticity& stiffest,
                                      Plane plane, const LawDescription& description) {
-  if (plane == Plane::stress)
-    return pointMaterial(OfAnyElasticity<Law>(law, anisotropy.stiffness, stiffest.young), description);
-  const InPlaneStrain<Law> inStrain(law, stiffest);
-  return pointMaterial(OfAnyElasticity<InPlaneStrain<Law>>(inStrain, anisotropy.stiffness, stiffest.young),
-                       description);
+  const auto made = [&]<class Whole>(const Whole& whole) {
+    return pointMaterial(OfAnyElasticity<Whole>(whole, anisotropy.stiffness, stiffest.young), description);
+  };
+  if constexpr (Law::components == 5)
+    return made(InSpace<Law>(law, stiffest));
+  else
+    return plane == Plane::stress ? made(law) : made(InPlaneStrain<Law>(law, stiffest));
 }
 
 /// The moduli in place of Young's modulus and Poisson's ratio.
@@ -177,6 +195,30 @@ LawDescription described(LawDescription law, const Anisotropy& anisotropy) {
   return law;
 }
 
+/// \tparam n  directions of the flow
+template <size_t n>
+std::shared_ptr<const Material> makeAny(const Anisotropy& anisotropy, const StressLaw& flow, Plane plane) {
+  const Elasticity stiffest = stiffestOf(anisotropy);
+  const double e = stiffest.young;
+  const auto made = [&](const auto& law, const LawDescription& description) {
+    return make(law, anisotropy, stiffest, plane, described(description, anisotropy));
+  };
+  const Pair a{plane == Plane::stress ? 0.5 : 1.5, 1.5};
+  if (const auto* norton = std::get_if<NortonCreep>(&flow)) {
+    requireValid(*norton);
+    return made(NortonLaw<n>({e, e}, a, *norton), describe(stiffest, *norton));
+  }
+  if (const auto* perzyna = std::get_if<Viscoplasticity>(&flow)) {
+    requireValid(*perzyna);
+    if (plane == Plane::stress && perzyna->projection != Projection::frobenius)
+      throw InputError("expected projection = \"frobenius\" beside elasticity that is not isotropic");
+    LawDescription description = describe(stiffest, *perzyna);
+    if (plane == Plane::stress) description.variant = projectionNames[static_cast<int>(perzyna->projection)];
+    return made(PerzynaLaw<n>({e, e}, a, {1, 1}, *perzyna), description);
+  }
+  return made(ElasticLaw<n>({e, e}), describe(stiffest));
+}
+
 }  // namespace
 
 Anisotropy anisotropyOf(const Orthotropy& given, Plane plane) {
@@ -187,8 +229,9 @@ Anisotropy anisotropyOf(const Orthotropy& given, Plane plane) {
   compliance(0, 0) = 1 / e1;
   compliance(1, 1) = 1 / e2;
   compliance(0, 1) = compliance(1, 0) = -nu12 / e1;
-  compliance(2, 2) = 1 / given.shear;
-  if (n == 4) {
+  compliance(2, 2) = 1 / given.shear[0];
+  for (int k = 4; k < n; ++k) compliance(k, k) = 1 / given.shear[k - 3];
+  if (n > 3) {
     compliance(3, 3) = 1 / e3;
     compliance(0, 3) = compliance(3, 0) = -nu13 / e1;
     compliance(1, 3) = compliance(3, 1) = -nu23 / e2;
@@ -205,6 +248,7 @@ Anisotropy anisotropyOf(const Matrix& stiffness, Plane plane) {
   constexpr double rounding = 1e-12;
   if (stiffness.rows() != componentsIn(plane) || stiffness.cols() != stiffness.rows())
     throw InputError(plane == Plane::stress ? "expected three rows of three (s11, s22, s12 in plane stress)"
+                     : plane == Plane::none ? "expected six rows of six (s11, s22, s12, s33, s13, s23)"
                                             : "expected four rows of four (s11, s22, s12, s33)");
   const double largest = stiffness.cwiseAbs().maxCoeff();
   if (!((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff() <= rounding * largest))
@@ -215,35 +259,33 @@ Anisotropy anisotropyOf(const Matrix& stiffness, Plane plane) {
   return {onBasis, "general"};
 }
 
-Anisotropy turned(const Anisotropy& anisotropy, double angle) {
-  const double c = std::cos(2 * angle);
-  const double s = std::sin(2 * angle);
-  Matrix R = Matrix::Identity(anisotropy.stiffness.rows(), anisotropy.stiffness.cols());
-  R.block<2, 2>(1, 1) << c, s, -s, c;  // into the axes of the body
-  return {R.transpose() * anisotropy.stiffness * R, anisotropy.name};
+Anisotropy turned(const Anisotropy& anisotropy, const Eigen::Matrix3d& axes) {
+  if (axes == Eigen::Matrix3d::Identity()) return anisotropy;
+  const Eigen::Index n = anisotropy.stiffness.rows();
+  const Matrix components = basis(n).inverse();
+  Matrix R(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < n; ++k)
+      tensor(tensorRows[k], tensorColumns[k]) = tensor(tensorColumns[k], tensorRows[k]) = components(k, j);
+    R.col(j) = basis(n) * componentsOf(axes * tensor * axes.transpose(), n);
+  }
+  return {R * anisotropy.stiffness * R.transpose(), anisotropy.name};
+}
+
+Eigen::Matrix3d axesAt(double angle) {
+  return Eigen::AngleAxisd(angle, SpacePoint::UnitZ()).toRotationMatrix();
+}
+
+Vector alongAxes(const std::array<double, 3>& values, const Eigen::Matrix3d& axes, Plane plane) {
+  const Eigen::Map<const Eigen::Vector3d> along(values.data());
+  return basis(componentsIn(plane)) *
+         componentsOf(axes * along.asDiagonal() * axes.transpose(), componentsIn(plane));
 }
 
 std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy, const StressLaw& flow,
                                                     Plane plane) {
-  const Elasticity stiffest = stiffestOf(anisotropy);
-  const double e = stiffest.young;
-  const auto made = [&](const auto& law, const LawDescription& description) {
-    return make(law, anisotropy, stiffest, plane, described(description, anisotropy));
-  };
-  const Pair a{plane == Plane::stress ? 0.5 : 1.5, 1.5};
-  if (const auto* norton = std::get_if<NortonCreep>(&flow)) {
-    requireValid(*norton);
-    return made(NortonLaw<>({e, e}, a, *norton), describe(stiffest, *norton));
-  }
-  if (const auto* perzyna = std::get_if<Viscoplasticity>(&flow)) {
-    requireValid(*perzyna);
-    if (plane == Plane::stress && perzyna->projection != Projection::frobenius)
-      throw InputError("expected projection = \"frobenius\" beside elasticity that is not isotropic");
-    LawDescription description = describe(stiffest, *perzyna);
-    if (plane == Plane::stress) description.variant = projectionNames[static_cast<int>(perzyna->projection)];
-    return made(PerzynaLaw({e, e}, a, {1, 1}, *perzyna), description);
-  }
-  return made(ElasticLaw({e, e}), describe(stiffest));
+  return plane == Plane::none ? makeAny<5>(anisotropy, flow, plane) : makeAny<3>(anisotropy, flow, plane);
 }
 
 }  // namespace mortier

@@ -1,7 +1,8 @@
 // Elasticity by any symmetric elliptic tensor E in axes of its own, for laws whose rate G is a function of
-// the stress. On p, q, r (and s33 in plane strain, stress.h) such a tensor is a symmetric matrix. Orthotropic
-// bodies have three axes, the third across the plane, and the compliance
-//   e_i = s_i/E_i - sum_j (nu_ji/E_j) s_j,   nu_ij/E_i = nu_ji/E_j,   2 e_12 = s_12/G_12
+// the stress. On p, q, r (and s33 in plane strain, stress.h), or six components in space (space.h), such a
+// tensor is a symmetric matrix. Orthotropic bodies have three axes, the third across the plane, and the
+// compliance
+//   e_i = s_i/E_i - sum_j (nu_ji/E_j) s_j,   nu_ij/E_i = nu_ji/E_j,   2 e_ij = s_ij/G_ij
 // (S. G. Lekhnitskii, Anisotropic Plates, 1968).
 #pragma once
 
@@ -11,16 +12,17 @@
 #include "material/norton.h"
 #include "material/perzyna.h"
 #include "material/plane_strain.h"
+#include "material/stress.h"
 
 namespace mortier {
 
 struct Orthotropy {
-  std::array<double, 3> young{};    ///< E1, E2, E3 [Pa]; E3 in plane strain only
+  std::array<double, 3> young{};    ///< E1, E2, E3 [Pa]; E3 without effect in plane stress
   std::array<double, 3> poisson{};  ///< nu12, nu13, nu23: of axis j per strain along i, stressed along i [-]
-  double shear = 0;                 ///< G12 [Pa]
+  std::array<double, 3> shear{};    ///< G12, and in space G13, G23 [Pa]
 };
 
-/// E on p, q, r or p, q, r, s33 of its axes [Pa].
+/// E on the components of its axes [Pa].
 struct Anisotropy {
   Matrix stiffness;
   std::string name;  ///< "orthotropic", "general"
@@ -29,12 +31,17 @@ struct Anisotropy {
 /// \throws InputError where the compliance is not positive, with its smallest eigenvalue.
 Anisotropy anisotropyOf(const Orthotropy& orthotropy, Plane plane);
 
-/// \param stiffness  (s11, s22, s12) of (e11, e22, 2 e12), in plane strain s33 and e33 after them [Pa]
+/// \param stiffness  (s11, s22, s12) of (e11, e22, 2 e12), in plane strain s33 and e33 after them, in space
+/// then s13, s23 and 2 e13, 2 e23 [Pa]
 /// \throws InputError unless it is symmetric and positive, with its smallest eigenvalue.
 Anisotropy anisotropyOf(const Matrix& stiffness, Plane plane);
 
-/// The same in axes turned by -angle [rad]: what lies along axis 1 then lies at the angle.
-Anisotropy turned(const Anisotropy& anisotropy, double angle);
+/// The same of a body whose axes are the columns, orthonormal; in the plane turned about the third one.
+Anisotropy turned(const Anisotropy& anisotropy, const Eigen::Matrix3d& axes);
+/// The axes turned from those of the body by an angle about the third one [rad].
+Eigen::Matrix3d axesAt(double angle);
+/// The tensor that has these values along three axes, by the components of a plane.
+Vector alongAxes(const std::array<double, 3>& values, const Eigen::Matrix3d& axes, Plane plane);
 
 /// The law beside elasticity; the first: none.
 using StressLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep>;
@@ -43,7 +50,7 @@ using StressLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep>;
 std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy, const StressLaw& flow,
                                                     Plane plane);
 
-/// A material whose axes are turned by an angle of their own at every point [rad].
+/// A material whose axes are turned about the third one by an angle of their own at every point [rad].
 std::shared_ptr<const Material> turnedMaterial(std::shared_ptr<const Material> inner,
                                                const std::vector<double>& angles);
 

@@ -7,7 +7,9 @@
 namespace mortier {
 
 Linearisation Material::room(int points) const {
-  if (components() == 6) return {Matrix(6, points), Matrix(symmetricTangent() ? 21 : 36, points)};
+  if (components() >= 6)
+    return {Matrix(components(), points), Matrix(symmetricTangent() ? 21 : 36, points),
+            Matrix(components() > 6 ? 7 : 0, points)};
   Linearisation room{Matrix(components(), points), Matrix(symmetricTangent() ? 6 : 9, points)};
   if (components() > 3) room.beyond.resize(components() > 4 ? 9 : symmetricTangent() ? 4 : 7, points);
   return room;

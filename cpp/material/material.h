@@ -43,11 +43,13 @@ struct PathStart {
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
   /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the
-  /// moduli are symmetric, 6 x points for the lower triangle. In space all of H^-1: 36 or 21 x points.
+  /// moduli are symmetric, 6 x points for the lower triangle. In space those of six components: 36 or 21 x
+  /// points.
   Matrix moduli;
   /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first
   /// three of its column: 4 or 7 x points. Empty where there are three components. A fifth one adds the first
-  /// three of its row, what is on the diagonal, and that of both: 9 x points.
+  /// three of its row, what is on the diagonal, and that of both: 9 x points. A seventh one in space adds its
+  /// row: 7 x points.
   Matrix beyond = {};
   int elastic = 0;  ///< points at which the moduli are those of elasticity, as far as they were counted
 };
@@ -87,13 +89,19 @@ inline Eigen::Matrix<double, 6, 6> spaceModuliAt(const Matrix& moduli, int point
   return D;
 }
 
-using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;  ///< by components
+using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;  ///< by components
 
 /// H^-1 of a point times a strain.
 inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vector>& strain, int point) {
-  if (strain.size() == 6) return spaceModuliAt(law.moduli, point) * strain;
-  const std::array<double, 9> D = moduliAt(law.moduli, point);
   PointVector stress(strain.size());
+  if (strain.size() >= 6) {
+    stress.head<6>() = spaceModuliAt(law.moduli, point) * strain.head<6>();
+    if (strain.size() == 6) return stress;
+    stress.head<6>() += law.beyond.col(point).head<6>() * strain[6];
+    stress[6] = law.beyond.col(point).dot(strain);
+    return stress;
+  }
+  const std::array<double, 9> D = moduliAt(law.moduli, point);
   stress.head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) * strain.head<3>();
   if (strain.size() > 3) {
     const auto beyond = law.beyond.col(point);

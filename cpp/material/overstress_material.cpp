@@ -142,9 +142,8 @@ template <int tensor>
 std::shared_ptr<const Material> make(const OverstressFlow<tensor == 6 ? 5 : 3>& flow,
                                      const Elasticity& elasticity) {
   LawDescription description = describe(elasticity, flow.law());
-  if constexpr (tensor < 6)
-    if (flow.law().isotropicHardening > 0)
-      return pointMaterial(OverstressLaw<tensor, true, true>(flow, elasticity), std::move(description));
+  if (flow.law().isotropicHardening > 0)
+    return pointMaterial(OverstressLaw<tensor, true, true>(flow, elasticity), std::move(description));
   if (flow.law().kinematicHardening > 0)
     return pointMaterial(OverstressLaw<tensor, true, false>(flow, elasticity), std::move(description));
   return pointMaterial(OverstressLaw<tensor, false, false>(flow, elasticity), std::move(description));

@@ -14,8 +14,8 @@
 namespace mortier {
 
 /// What is zero across the plane; of bodies that turn about the axis x = 0 nothing is: the fourth strain is
-/// that of the circumference.
-enum class Plane { stress, strain, axisymmetric };
+/// that of the circumference. None: of bodies in space.
+enum class Plane { stress, strain, axisymmetric, none };
 
 /// A stress or a strain; Scalar is a number or a batch of them.
 template <class Scalar, size_t n = 3>

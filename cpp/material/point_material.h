@@ -1,7 +1,7 @@
 // A material from the law of one point. A law is a small class with
 //
 //   static constexpr int components;              3, on p, q, r (stress.h), or 4, s33 beside them; and those
-//                                                 that it remembers; or the 6 of space
+//                                                 that it remembers; or the 6 of space and those
 //   static constexpr bool linear, needsTotalStrain;
 //                                                 its moduli depend on nothing; G on the total strain
 //   bool symmetric() const;                       whether its moduli are, whatever the stress
@@ -185,12 +185,19 @@ class PointMaterial final : public Material, public BackStress {
 
   /// What Linearisation keeps of them.
   static void store(const Batch& batch, const std::array<Lanes, n * n>& H, Linearisation& result) {
-    if constexpr (n == 6) {
-      if (result.moduli.rows() == 36) return batch.store(H, result.moduli.data());
+    if constexpr (n >= 6) {
+      std::array<Lanes, 36> all;
       std::array<Lanes, 21> lower;
       size_t next = 0;
-      for (size_t j = 0; j < n; ++j)
-        for (size_t i = j; i < n; ++i) lower[next++] = H[n * j + i];
+      for (size_t j = 0; j < 6; ++j)
+        for (size_t i = 0; i < 6; ++i) {
+          all[6 * j + i] = H[n * j + i];
+          if (i >= j) lower[next++] = H[n * j + i];
+        }
+      if constexpr (n == 7)
+        batch.store(std::array<Lanes, 7>{H[6], H[13], H[20], H[27], H[34], H[41], H[48]},
+                    result.beyond.data());
+      if (result.moduli.rows() == 36) return batch.store(all, result.moduli.data());
       return batch.store(lower, result.moduli.data());
     }
     if (result.moduli.rows() == 6)

@@ -87,7 +87,6 @@ std::shared_ptr<const Material> spacePerzynaMaterial(const Elasticity& elasticit
 std::shared_ptr<const Material> spaceNortonMaterial(const Elasticity& elasticity, const NortonCreep& creep);
 std::shared_ptr<const Material> spaceViscoelasticMaterial(const Elasticity& elasticity,
                                                           const Viscoelasticity& viscoelasticity);
-/// Without isotropic hardening.
 std::shared_ptr<const Material> spaceOverstressMaterial(const Elasticity& elasticity, const Overstress& law);
 
 }  // namespace mortier

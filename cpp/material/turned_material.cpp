@@ -11,7 +11,8 @@ class TurnedMaterial final : public Material, public Pointwise {
  public:
   TurnedMaterial(std::shared_ptr<const Material> inner, const std::vector<double>& angles)
       : inner_(std::move(inner)) {
-    for (const double angle : angles) axes_.push_back({std::cos(2 * angle), std::sin(2 * angle)});
+    for (const double angle : angles)
+      axes_.push_back({std::cos(2 * angle), std::sin(2 * angle), std::cos(angle), std::sin(angle)});
   }
 
   [[nodiscard]] std::vector<LawDescription> laws() const override { return inner_->laws(); }
@@ -78,14 +79,17 @@ class TurnedMaterial final : public Material, public Pointwise {
   static constexpr double into = 1;
   static constexpr double back = -1;
 
-  /// Turns q and r of all columns of a point.
+  /// Turns q and r of all columns of a point, and in space the shears 13 and 23.
   void turn(Eigen::Ref<Matrix> columns, int point, double way) const {
-    const auto [c, s] = axes_[point];
+    const auto& [c2, s2, c, s] = axes_[point];
     for (auto column : columns.colwise()) {
-      const double q = column[1];
-      const double r = column[2];
-      column[1] = c * q + way * s * r;
-      column[2] = c * r - way * s * q;
+      const auto turnPair = [&](int k, double cosine, double sine) {
+        const Point pair = column.segment<2>(k);
+        column[k] = cosine * pair.x() + sine * pair.y();
+        column[k + 1] = cosine * pair.y() - sine * pair.x();
+      };
+      turnPair(1, c2, way * s2);
+      if (column.size() == 6) turnPair(3, c, way * s);
     }
   }
   [[nodiscard]] Matrix in(const Matrix& field, int begin, int end) const {
@@ -108,16 +112,19 @@ class TurnedMaterial final : public Material, public Pointwise {
         ask(MaterialStep{step.weight, stress0, strain, step.anticipate, &strain0}, answer);
     out(answer.predictor, result.predictor, begin);
     for (int i = begin; i < end; ++i) {
-      const std::array<double, 9> moduli = moduliAt(answer.moduli, i - begin);
-      Matrix D = Eigen::Map<const Eigen::Matrix3d>(moduli.data());
-      turn(D, i, back);
-      D.transposeInPlace();
-      turn(D, i, back);
-      D.transposeInPlace();
-      if (result.moduli.rows() == 6)
-        result.moduli.col(i) << D(0, 0), D(1, 0), D(2, 0), D(1, 1), D(2, 1), D(2, 2);
+      Matrix D;
+      if (stress0.rows() == 6)
+        D = spaceModuliAt(answer.moduli, i - begin);
       else
-        result.moduli.col(i) = D.reshaped();
+        D = Eigen::Map<const Eigen::Matrix3d>(moduliAt(answer.moduli, i - begin).data());
+      turn(D, i, back);
+      D.transposeInPlace();
+      turn(D, i, back);
+      D.transposeInPlace();
+      Eigen::Index next = 0;  // all of them, or the lower triangle
+      for (Eigen::Index j = 0; j < D.cols(); ++j)
+        for (Eigen::Index k = result.moduli.rows() < D.size() ? j : 0; k < D.rows(); ++k)
+          result.moduli(next++, i) = D(k, j);
       // The row of s33, and the column of e33 where that is another.
       if (answer.beyond.size() == 0) continue;
       Matrix row = answer.beyond.col(i - begin).head<3>();
@@ -134,7 +141,7 @@ class TurnedMaterial final : public Material, public Pointwise {
   }
 
   std::shared_ptr<const Material> inner_;
-  std::vector<std::array<double, 2>> axes_;  ///< cosine and sine of twice the angle
+  std::vector<std::array<double, 4>> axes_;  ///< cosine and sine of twice the angle, and of it
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ TriangleMesh readMesh(const MeshSource& source) {
 }
 
 TetrahedronMesh readSpaceMesh(const MeshSource& source) {
-  if (source.cuboid) return cuboidMesh(*source.cuboid);
+  if (source.inSpace) return shapeMesh(*source.inSpace);
   if (isGmshFile(source.path)) return readSpaceGmsh(source);
   requireNoGeometry(source);
   return readSpaceMedit(source.path, source.regions);

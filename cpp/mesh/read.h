@@ -12,10 +12,10 @@ namespace mortier {
 
 /// Where the mesh of a body comes from.
 struct MeshSource {
-  std::string path;                       ///< as the program opens it; of a shape, its word
-  std::optional<MeshShape> shape = {};    ///< in place of a file
-  std::optional<Cuboid> cuboid = {};      ///< the same in space
-  std::vector<std::string> regions = {};  ///< names or numbers of those that are the body; none: all
+  std::string path;                        ///< as the program opens it; of a shape, its word
+  std::optional<MeshShape> shape = {};     ///< in place of a file
+  std::optional<SpaceShape> inSpace = {};  ///< the same in space
+  std::vector<std::string> regions = {};   ///< names or numbers of those that are the body; none: all
   double size = 0;  ///< longest edge where Gmsh meshes a geometry [m]; 0: the geometry's own
   std::map<std::string, double> parameters = {};  ///< of a .geo, which names them in DefineConstant
 };

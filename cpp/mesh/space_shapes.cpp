@@ -1,11 +1,14 @@
 #include "mesh/space_shapes.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace mortier {
 namespace {
 
-/// The vertices of a cell by bits: 1 along x, 2 along y, 4 along z. All tetrahedra have its diagonal 0-7.
+/// The vertices of a cell by bits: 1 along x, 2 along y, 4 along z. All tetrahedra have its diagonal 0-7, and
+/// in a mirrored cell that of the cell that it mirrors.
 constexpr std::array<std::array<int, 4>, 6> tetrahedraOfCell{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
@@ -14,9 +17,8 @@ struct Side {
 };
 constexpr std::array<Side, 6> sides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
 
-}  // namespace
-
-TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
+/// \param mirrored  how many cells from the lower end on are mirrored, by axes
+TetrahedronMesh boxMesh(const Cuboid& cuboid, const std::array<int, 3>& mirrored) {
   const int nx = cuboid.cells[0], ny = cuboid.cells[1], nz = cuboid.cells[2];
   if (!((cuboid.upper - cuboid.lower).minCoeff() > 0) || nx < 1 || ny < 1 || nz < 1)
     throw InputError("a box without volume or cells");
@@ -32,12 +34,16 @@ TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
+        const std::array<int, 3> cell{i, j, k};
+        int mirror = 0;
+        for (int c = 0; c < 3; ++c)
+          if (cell[c] < mirrored[c]) mirror |= 1 << c;
         const auto corner = [&](int bits) {
+          bits ^= mirror;
           return vertex(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));
         };
         for (const auto& [a, b, c, d] : tetrahedraOfCell)
           mesh.tetrahedra.push_back({corner(a), corner(b), corner(c), corner(d)});
-        const std::array<int, 3> cell{i, j, k};
         for (const auto& [axis, end, label] : sides) {
           if (cell[axis] != (end == 0 ? 0 : cuboid.cells[axis] - 1)) continue;
           for (const auto& tetrahedron : tetrahedraOfCell)
@@ -46,7 +52,7 @@ TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
               bool outside = true;
               for (int a = 0, next = 0; a < 4; ++a) {
                 if (a == left) continue;
-                outside = outside && (tetrahedron[a] >> axis & 1) == end;
+                outside = outside && ((tetrahedron[a] ^ mirror) >> axis & 1) == end;
                 triangle[next++] = corner(tetrahedron[a]);
               }
               if (!outside) continue;
@@ -57,6 +63,46 @@ TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
       }
   mesh.regions.assign(mesh.tetrahedra.size(), 1);
   mesh.labelNames = {{"bottom", 1}, {"right", 2}, {"top", 3}, {"left", 4}, {"front", 5}, {"back", 6}};
+  validate(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
+  return boxMesh(cuboid, {0, 0, 0});
+}
+
+TetrahedronMesh roundMesh(const RoundBody& body) {
+  if (!(body.radius > 0) || !(body.height > 0)) throw InputError("a round body without volume");
+  const auto& [across, along] = body.cells;
+  const int rounded = body.ball ? 3 : 2;  // axes
+  Cuboid box{{0, 0, 0}, {1, 1, body.height / body.radius}, {across, across, along}};
+  std::array<int, 3> mirrored{};  // diagonals lead outwards everywhere
+  for (int c = 0; c < rounded; ++c) {
+    mirrored[c] = body.keep[c] > 0 ? 0 : across;
+    box.lower[c] = body.keep[c] > 0 ? 0 : -1;
+    box.upper[c] = body.keep[c] < 0 ? 0 : 1;
+    box.cells[c] = body.keep[c] == 0 ? 2 * across : across;
+  }
+  TetrahedronMesh mesh = boxMesh(box, mirrored);
+  for (SpacePoint& x : mesh.vertices) {
+    const auto round = x.head(rounded);
+    if (const double size = round.norm(); size > 0) x.head(rounded) *= round.cwiseAbs().maxCoeff() / size;
+    x = body.centre + body.radius * x;
+  }
+  for (int& label : mesh.boundaryLabels)
+    for (const auto& [axis, end, sideLabel] : sides)
+      if (label == sideLabel && axis < rounded && body.keep[axis] != (end == 0 ? 1 : -1)) {
+        label = 7;
+        break;
+      }
+  mesh.labelNames["round"] = 7;
+  std::erase_if(mesh.labelNames, [&](const auto& named) {
+    return std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), named.second) ==
+           mesh.boundaryLabels.end();
+  });
+  mesh.name = body.ball ? "ball" : "cylinder";
   validate(mesh);
   return mesh;
 }

@@ -181,7 +181,7 @@ class Planner {
     const TimePlan& time = scene_.time;
     const bool elastic = std::all_of(model_.bodies.begin(), model_.bodies.end(),
                                      [](const Body& body) { return body.material().linear(); });
-    const bool changes = anyInSpaceChanges() ||
+    const bool changes = (scene_.inSpace() && anyInSpaceChanges()) ||
                          std::any_of(data_.begin(), data_.end(),
                                      [&](const SampledDatum& datum) { return changesInTime(datum, time); });
     if (elastic && !changes) {
@@ -204,11 +204,14 @@ class Planner {
   }
 
   [[nodiscard]] bool anyInSpaceChanges() const {
-    return scene_.inSpace() &&
+    return std::any_of(
+               scene_.contacts.begin(), scene_.contacts.end(),
+               [](const ContactDescription& contact) { return contact.gap && contact.gap->inTime; }) ||
            std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [](const BodyDescription& body) {
              const auto changes = [](const auto& force) { return force && force->inTime; };
              return std::any_of(body.conditions.begin(), body.conditions.end(),
                                 [](const ConditionDescription& c) { return c.value.inTime; }) ||
+                    (body.temperature && body.temperature->value.inTime) ||
                     std::any_of(std::begin(body.force), std::end(body.force), changes);
            });
   }

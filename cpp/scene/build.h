@@ -32,6 +32,17 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
 /// \param places  the points of the material, which an angle of its axes may depend on.
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<Point>& places);
+/// By what angle the axes of a material are turned at each of the places [rad]; one where it is everywhere
+/// the same. \throws InputError
+template <class Place>
+std::vector<double> anglesOf(const MaterialDescription& description, const std::vector<Place>& places) {
+  if (!description.anisotropy || !description.anisotropy->angle || places.empty()) return {0};
+  const Expression& angle = *description.anisotropy->angle;
+  return valuesAt(angle, angle.constant ? std::vector<Place>{places.front()} : places);
+}
+/// Of elasticity that is not isotropic.
+std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
+                                                 const std::vector<double>& angles);
 /// One material, or as many as regions ask for. \param regions  by elements \param points  of the whole body
 std::shared_ptr<const Material> materialOfRegions(
     const BodyDescription& body, const std::vector<int>& regions, size_t points,
@@ -41,11 +52,11 @@ Body buildSpaceBody(const BodyDescription& body, TetrahedronMesh mesh, const Sce
 /// Data are tried at `times` [s].
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times);
-/// Adds the temperature to the conditions, and by `places`, the stress points of the mesh, what a kelvin
-/// strains there.
-void addTemperature(const BodyDescription& body, const TriangleMesh& mesh, Plane plane,
-                    const std::vector<Point>& places, const std::vector<double>& times,
-                    Conditions& conditions);
+/// What a temperature of 1 strains at `places`, the stress points of the mesh, times the nodal values where
+/// the body has a file of them: components x places. \throws InputError where the temperature is not finite.
+template <class Mesh, class Place>
+Matrix expansionOf(const BodyDescription& body, const Mesh& mesh, Plane plane,
+                   const std::vector<Place>& places, const std::vector<double>& times);
 /// Adds the interface to the model, which has its bodies.
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model);
 

@@ -123,28 +123,21 @@ void requireOneDisplacement(const Supports& supports,
   }
 }
 
-/// Elasticity that is not isotropic, turned at every one of the places where its angle varies.
+}  // namespace
+
 std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
-                                                 const std::vector<Point>& places) {
-  const AnisotropyDescription& own = *description.anisotropy;
+                                                 const std::vector<double>& angles) {
   StressLaw flow;
   if (const auto* perzyna = description.as<Viscoplasticity>()) flow = *perzyna;
   if (const auto* norton = description.as<NortonCreep>()) flow = *norton;
-  const Anisotropy anisotropy = own.in(plane);
-  if (!own.angle) return anisotropicMaterial(anisotropy, flow, plane);
-  requireFinite(*own.angle, places, {0});
-  if (own.angle->constant)
-    return anisotropicMaterial(turned(anisotropy, own.angle->value(0, 0, 0)), flow, plane);
-  std::vector<double> angles;
-  for (const Point& place : places) angles.push_back(own.angle->value(place.x(), place.y(), 0));
+  const Anisotropy anisotropy = description.anisotropy->in(plane);
+  if (angles.size() == 1) return anisotropicMaterial(turned(anisotropy, axesAt(angles[0])), flow, plane);
   return turnedMaterial(anisotropicMaterial(anisotropy, flow, plane), angles);
 }
 
-}  // namespace
-
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<Point>& places) {
-  if (description.anisotropy) return buildAnisotropic(description, plane, places);
+  if (description.anisotropy) return buildAnisotropic(description, plane, anglesOf(description, places));
   const Elasticity& elasticity = description.elasticity;
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
   if (const auto* viscoelasticity = description.as<Viscoelasticity>())
@@ -262,7 +255,10 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {
         return buildMaterial(description, scene.plane, places);
       });
-  addTemperature(body, mesh, scene.plane, places, times, conditions);
+  if (body.temperature) {
+    conditions.temperature = finiteValue(body.temperature->value);
+    conditions.expansion = expansionOf(body, mesh, scene.plane, places, times);
+  }
   return {body.name,
           std::move(mesh),
           material,

@@ -47,11 +47,21 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   }
   InterfaceOptions options;
   options.initial = contact.initial;
-  if (scene.inSpace())
+  if (scene.inSpace()) {
+    if (contact.gap) {
+      const Body& body = model.bodies[pair.nonmortar.body];
+      std::vector<SpacePoint> places;
+      for (const int node : body.boundaryNodes(pair.nonmortar.label))
+        places.push_back(body.placeOfNode(node));
+      requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
+      options.gapInSpace = finiteInSpace(*contact.gap);
+      options.gapMoves = contact.gap->inTime;
+    }
     return addAt(contact, [&] {
       addInterface(model, pair, options);
       requireMemory(memoryNeed(model, scene.solver), false);
     });
+  }
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   options.friction = contact.friction;

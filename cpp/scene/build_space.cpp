@@ -60,7 +60,10 @@ void requireOneMotion(const BodyDescription& description, const Body& body,
   }
 }
 
-std::shared_ptr<const Material> materialInSpace(const MaterialDescription& description) {
+std::shared_ptr<const Material> materialInSpace(const MaterialDescription& description,
+                                                const std::vector<SpacePoint>& places) {
+  if (description.anisotropy)
+    return buildAnisotropic(description, Plane::none, anglesOf(description, places));
   const Elasticity& elasticity = description.elasticity;
   if (const auto* perzyna = description.as<Viscoplasticity>())
     return spacePerzynaMaterial(elasticity, *perzyna);
@@ -89,8 +92,23 @@ Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, co
     requireFinite(*description.force[c], centresOf(mesh), times);
     conditions.forces.push_back({0, c, finiteInSpace(*description.force[c])});
   }
-  const size_t points = mesh.tetrahedra.size() * (scene.degree == 1 ? 1 : 4);
-  const auto material = materialOfRegions(description, mesh.regions, points, materialInSpace);
+  const auto addStress = [&](const StressDescription& stress, std::optional<int> region) {
+    for (size_t c = 0; c < stress.size(); ++c) {
+      if (!stress[c]) continue;
+      requireFinite(*stress[c], centresOf(mesh), {0});
+      conditions.initialStresses.push_back({static_cast<int>(c), region, finiteInSpace(*stress[c])});
+    }
+  };
+  addStress(description.initialStress, std::nullopt);
+  for (const RegionDescription& region : description.regions) addStress(region.initialStress, region.label);
+  const std::vector<SpacePoint> places = placesOfPoints(mesh, scene.degree);
+  const auto material =
+      materialOfRegions(description, mesh.regions, places.size(),
+                        [&](const MaterialDescription& each) { return materialInSpace(each, places); });
+  if (description.temperature) {
+    conditions.temperature = finiteInSpace(description.temperature->value);
+    conditions.expansion = expansionOf(description, mesh, Plane::none, places, times);
+  }
   Body body(description.name, std::move(mesh), material, std::move(conditions), scene.degree);
   requireOneMotion(description, body, times);
   return body;

@@ -226,4 +226,20 @@ void requireFinite(const Expression& expression, const std::vector<Point>& point
     for (const Point& p : points) finite(expression.value(p[0], p[1], t), expression.where, p[0], p[1], t);
 }
 
+template <>
+std::vector<double> valuesAt(const Expression& expression, const std::vector<Point>& points) {
+  std::vector<double> values;
+  for (const Point& p : points)
+    values.push_back(finite(expression.value(p[0], p[1], 0), expression.where, p[0], p[1], 0));
+  return values;
+}
+
+template <>
+std::vector<double> valuesAt(const Expression& expression, const std::vector<SpacePoint>& points) {
+  const SpaceDatum value = finiteInSpace(expression);
+  std::vector<double> values;
+  for (const SpacePoint& p : points) values.push_back(value(p, 0));
+  return values;
+}
+
 }  // namespace mortier

@@ -41,5 +41,8 @@ void requireFinite(const Expression& expression, const std::vector<Point>& point
                    const std::vector<double>& times);
 void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
                    const std::vector<double>& times);
+/// Its values at time 0. \throws InputError as these
+template <class Place>
+std::vector<double> valuesAt(const Expression& expression, const std::vector<Place>& points);
 
 }  // namespace mortier

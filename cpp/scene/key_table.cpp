@@ -40,20 +40,23 @@ region | | all | a region, by number or name, or a list of them | the part of th
 size | m | the geometry's own | > 0 | longest edge, where Gmsh meshes a geometry
 parameters | | none | table of numbers, `{ R = 8 }` | constants of a `.geo` that its `DefineConstant[...]`
   names
-shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"`, `"cuboid"` | in
-  place of a file, with keys of its own ([below](#meshes))
+shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"`,
+  `"cuboid"`, `"cylinder"`, `"ball"` | in place of a file, with keys of its own ([below](#meshes), in space
+  [there](#bodies-in-space))
 cells
 cut | | | "rising", "falling", "both"
 lower, upper | m | | with shape = "rectangle", "cuboid"
 focus | m | | with shape = "rectangle"
 grading | | | with shape = "rectangle"
 corners | m | | with shape = "quadrilateral"
-centre | m | | with shape = "annulus"
+centre | m | | with shape = "annulus", "cylinder", "ball"
 inner | m | 1 | > 0; with shape = "annulus"
 outer | m | 2 | > 0; with shape = "annulus"
 span | | "full" | "quarter", "half", "full"; with shape = "annulus"
 lowest | m | | with shape = "halfdisc", "quarterdisc"
-radius | m | 1 | > 0; with shape = "halfdisc", "quarterdisc"
+radius | m | 1 | > 0; with shape = "halfdisc", "quarterdisc", "cylinder", "ball"
+height | m | 1 | > 0; with shape = "cylinder"
+keep | | | with shape = "cylinder", "ball"
 core | m | 0.1 | > 0; with shape = "halfdisc", "quarterdisc"
 [body.force]
 x, y, z | N/m^3 | 0 | datum | body force; `z` with `dimension = 3`
@@ -99,21 +102,28 @@ elasticity | | `"isotropic"` | `"isotropic"`, `"orthotropic"`, `"general"` | the
   in place of `young` and `poisson` ([below](#elasticity-with-axes))
 young1, young2, shear12 | Pa | | > 0; with elasticity = "orthotropic" | moduli along the two axes of the plane
   and of shear between them
+shear13, shear23 | Pa | | > 0; with elasticity = "orthotropic" | the same of the third axis, with
+  `dimension = 3`
 young3 | Pa | | > 0; with elasticity = "orthotropic" | the same of the axis across the plane, or around that
   of revolution: without effect in plane stress, needed elsewhere
 poisson12 | | | a number; with elasticity = "orthotropic" | contraction along axis 2 over extension along axis
   1, under a stress along axis 1
 poisson13, poisson23 | | | a number; with elasticity = "orthotropic" | needed where `young3` is
 stiffness | Pa | | rows of numbers; with elasticity = "general" | (s11, s22, s12) of (e11, e22, 2 e12), three
-  by three; but for plane stress four by four, s33 and e33 after them
+  by three; but for plane stress four by four, s33 and e33 after them; with `dimension = 3` six by six, s13,
+  s23 and 2 e13, 2 e23 after those
+axes | | `[[1, 0, 0], [0, 1, 0]]` | two vectors; with elasticity = "orthotropic", "general" | axis 1, and a
+  vector in the plane of axes 1 and 2, with `dimension = 3`
 angle | rad | 0 | a number or an expression in x, y; with elasticity = "orthotropic", "general" | from the x
-  axis to axis 1, at every point at which stresses are taken
+  axis to axis 1, at every point at which stresses are taken; with `dimension = 3` the axes are turned by it
+  about z
 expansion | 1/K | 0 | a number; beside axes also three, one for each | thermal strain per kelvin of
   `temperature`
 [body.initial_stress body.region.initial_stress]
 s11, s22, s12 | Pa | 0 | datum | stress at t = 0
 s33 | Pa | nu (s11 + s22); axisymmetric 0 | datum | the same across the plane, or around the axis; not with
-  `plane = "stress"`
+  `plane = "stress"`; with `dimension = 3` 0 where it is not given
+s13, s23 | Pa | 0 | datum | the same with `dimension = 3`
 [body.region] `[[body.region]]` | | none | any number | what is different in the triangles of one region
 label | | | a region of the mesh, by number or name, each once | of the region
 material | | that of the body | table as above | elastic and viscoplastic regions may be mixed, and

@@ -79,7 +79,8 @@ StressDescription readInitialStress(const TableReader& owner, const std::string&
   StressDescription stress;
   if (!owner.has("initial_stress")) return stress;
   const TableReader table(*owner.find("initial_stress"), path, subject);
-  const std::string keys[] = {"s11", "s22", "s12", "s33"};
+  requireOfDimension(table, {"s13", "s23"}, {});
+  const std::string keys[] = {"s11", "s22", "s12", "s33", "s13", "s23"};
   for (size_t c = 0; c < stress.size(); ++c) stress[c] = table.datum(keys[c]);
   return stress;
 }
@@ -147,7 +148,7 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
     const TableReader table(node, "body.mesh", "body " + body.name + ": mesh");
     if (const Node* shape = table.find("shape")) {
       if (node.inSpace)
-        body.mesh.cuboid = readCuboid(table);
+        body.mesh.inSpace = readSpaceShape(table);
       else
         body.mesh.shape = readShape(table);
       body.mesh.path = shape->text;

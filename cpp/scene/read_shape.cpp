@@ -38,23 +38,43 @@ void requireKeysOf(const TableReader& table, Keys known) {
 
 }  // namespace
 
-Cuboid readCuboid(const TableReader& table) {
-  constexpr const char* expected = "N or [NX, NY, NZ], integers >= 1";
+SpaceShape readSpaceShape(const TableReader& table) {
   constexpr double most = 1e4;
-  if (table.string("shape") != "cuboid") table.reject("shape", "cuboid, or a file, with dimension = 3");
+  const std::string shape = table.string("shape");
+  if (shape != "cuboid" && shape != "cylinder" && shape != "ball")
+    table.reject("shape", "cuboid, cylinder, ball, or a file, with dimension = 3");
   requireKeysOf(table, {"shape", "cells"});
-  const Node& cells = table.require("cells", expected);
+  const size_t different = shape == "cuboid" ? 3 : shape == "cylinder" ? 2 : 1;
+  const std::string expected = different == 3   ? "N or [NX, NY, NZ], integers >= 1"
+                               : different == 2 ? "N or [N along a radius, M along z], integers >= 1"
+                                                : "N along a radius, an integer >= 1";
+  const Node& node = table.require("cells", expected);
   const std::vector<double> counts =
-      cells.isNumeric() ? std::vector<double>(3, cells.value) : table.numbers("cells");
-  Cuboid cuboid{
-      table.spacePoint("lower", SpacePoint(0, 0, 0)), table.spacePoint("upper", SpacePoint(1, 1, 1)), {}};
-  if (counts.size() != 3) table.reject("cells", expected);
-  for (size_t i = 0; i < 3; ++i) {
-    if (!(counts[i] >= 1 && counts[i] <= most && counts[i] == std::floor(counts[i])))
-      table.reject("cells", expected);
-    cuboid.cells[i] = static_cast<int>(counts[i]);
+      node.isNumeric() ? std::vector<double>(different, node.value) : table.numbers("cells");
+  if (counts.size() != different || !std::all_of(counts.begin(), counts.end(), [](double count) {
+        return count >= 1 && count <= most && count == std::floor(count);
+      }))
+    table.reject("cells", expected);
+  const auto cells = [&](size_t i) { return static_cast<int>(counts[std::min(i, different - 1)]); };
+  if (different == 3)
+    return Cuboid{table.spacePoint("lower", SpacePoint(0, 0, 0)),
+                  table.spacePoint("upper", SpacePoint(1, 1, 1)),
+                  {cells(0), cells(1), cells(2)}};
+  RoundBody body;
+  body.ball = shape == "ball";
+  body.centre = table.spacePoint("centre", SpacePoint(0, 0, 0));
+  body.radius = table.number("radius");
+  if (!body.ball) body.height = table.number("height");
+  body.cells = {cells(0), cells(1)};
+  const Keys halves{"x", "y", "z", "-x", "-y", "-z"};
+  for (const std::string& half : table.strings("keep")) {
+    const auto at = std::find(halves.begin(), halves.end(), half) - halves.begin();
+    if (at == 6 || (at % 3 == 2 && !body.ball) || body.keep[at % 3] != 0)
+      table.reject("keep", std::string("halves such as [\"x\", \"-y\"], each axis once") +
+                               (body.ball ? "" : ", of a cylinder x and y only"));
+    body.keep[at % 3] = at < 3 ? 1 : -1;
   }
-  return cuboid;
+  return body;
 }
 
 std::vector<Point> readPoints(const TableReader& table, const std::string& key, const std::string& expected) {
@@ -72,9 +92,9 @@ std::vector<Point> readPoints(const TableReader& table, const std::string& key, 
 }
 
 MeshShape readShape(const TableReader& table) {
-  enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc, cuboid };
+  enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc, inSpace };
   const auto family = table.choice<Family>("shape");
-  if (family == cuboid) table.reject("shape", "a plane one, or dimension = 3 at the top of the scene");
+  if (family >= inSpace) table.reject("shape", "a plane one, or dimension = 3 at the top of the scene");
   requireKeysOf(table, {"shape", "cells", "cut"});
   static_cast<void>(table.require("cells", "N or [N, M], integers >= 1"));
   const Point cells = pairOf(table, "cells", true);

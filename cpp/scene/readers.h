@@ -30,8 +30,8 @@ TimePlan readTime(const Node& node);
 BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index);
 /// `mesh = { shape = "rectangle", ... }`
 MeshShape readShape(const TableReader& table);
-/// `mesh = { shape = "cuboid", ... }`, in space
-Cuboid readCuboid(const TableReader& table);
+/// The same in space.
+SpaceShape readSpaceShape(const TableReader& table);
 
 /// Its mesh. \param owner  of the key `mesh`
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body);

@@ -71,9 +71,9 @@ void findPlaces(SceneDescription& scene, const std::vector<Mesh>& meshes) {
 }  // namespace
 
 TetrahedronMesh spaceMeshOf(const BodyDescription& body) {
-  if (!body.mesh.cuboid) return readSpaceMesh(body.mesh);
+  if (!body.mesh.inSpace) return readSpaceMesh(body.mesh);
   try {
-    return cuboidMesh(*body.mesh.cuboid);
+    return shapeMesh(*body.mesh.inSpace);
   } catch (const InputError& error) {
     throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
   }

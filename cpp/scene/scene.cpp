@@ -223,7 +223,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (size_t i = 0; i < bodies.size(); ++i) {
     BodyDescription body = readBody(*bodies[i], path, i);
     requireOwnName(scene, body);
-    requireInPlane(body, scene.plane);
+    if (!scene.inSpace()) requireInPlane(body, scene.plane);
     requireRates(body, scene);
     requireKnownTo(scene, body);
     scene.bodies.push_back(std::move(body));

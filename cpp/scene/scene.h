@@ -31,11 +31,13 @@ using FlowLaw =
 
 /// Elasticity that is not isotropic, in axes that may be turned.
 struct AnisotropyDescription {
-  std::variant<Orthotropy, Matrix> moduli;  ///< or the stiffness: stresses of (e11, e22, 2 e12, e33) [Pa]
-  std::optional<Expression> angle;          ///< from x to axis 1, in x, y [rad]
-  std::string where;                        ///< what a message about it begins with
+  /// Or the stiffness: stresses of (e11, e22, 2 e12, e33, 2 e13, 2 e23) [Pa].
+  std::variant<Orthotropy, Matrix> moduli;
+  std::optional<Expression> angle;  ///< from x to axis 1, or of the axes about z, in x, y and z [rad]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, before they are turned by the angle
+  std::string where;                                   ///< what a message about it begins with
 
-  /// In the axes of the material. \throws InputError where it is not elliptic.
+  /// In the body, but for the angle. \throws InputError where it is not elliptic.
   [[nodiscard]] Anisotropy in(Plane plane) const;
 };
 
@@ -76,8 +78,8 @@ struct ConditionDescription {
 /// "label 3", "point [0.5, 1]" or "the axis".
 std::string nameOfPlace(const ConditionDescription& condition);
 
-/// s11, s22, s12, s33 at t = 0 [Pa].
-using StressDescription = std::array<std::optional<Expression>, 4>;
+/// s11, s22, s12, s33, s13, s23 at t = 0 [Pa].
+using StressDescription = std::array<std::optional<Expression>, 6>;
 
 /// What is different in the triangles of one region.
 struct RegionDescription {

@@ -12,27 +12,14 @@ constexpr auto inThePlane = " with dimension = 3: known in the plane only";
 }
 
 void requireKnown(const MaterialDescription& material, const std::string& where) {
-  if (material.anisotropy)
-    throw InputError(material.anisotropy->where + ", expected \"isotropic\"" + inThePlane);
   if (material.as<OwnLaw>() != nullptr) refuse(where, "material: a law of its own");
-  if (const auto* law = material.as<Overstress>(); law != nullptr && law->isotropicHardening > 0)
-    refuse(where, "material: isotropic_hardening");
-}
-
-void requireKnown(const StressDescription& initial) {
-  for (const auto& component : initial)
-    if (component) throw InputError(component->where + ", expected none" + inThePlane);
 }
 
 void requireKnown(const BodyDescription& body) {
   const std::string where = body.where + ": body " + body.name;
   requireKnown(body.material, where);
-  requireKnown(body.initialStress);
-  for (const RegionDescription& region : body.regions) {
+  for (const RegionDescription& region : body.regions)
     if (region.material) requireKnown(*region.material, region.where + ": body " + body.name);
-    requireKnown(region.initialStress);
-  }
-  if (body.temperature) refuse(body.temperature->where, "temperature");
   if (body.volume == Volume::averaged)
     throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
 }
@@ -41,7 +28,6 @@ void requireKnown(const ContactDescription& contact, int degree) {
   const std::string where = contact.where + ": contact";
   if (contact.friction.any()) refuse(where, "friction");
   if (contact.sliding == SlidingKind::finite) refuse(where, "sliding = \"finite\"");
-  if (contact.gap) refuse(where, "gap");
   if (contact.variant == CouplingKind::coarsened ||
       (degree == 2 && contact.variant != CouplingKind::weighted))
     throw InputError(

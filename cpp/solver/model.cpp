@@ -84,7 +84,8 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
     model.interfaces.push_back(ContactInterface::inSpace(
         pair, meshOf(nonmortar), meshOf(mortar),
         {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
-         [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }}));
+         [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
+         options.gapMoves}));
     return;
   }
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };

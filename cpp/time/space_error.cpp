@@ -14,28 +14,33 @@ namespace mortier {
 
 namespace {
 
-/// Strain over stress along x, or along the stiffest of four directions where these differ by more than
-/// rounding [1/Pa].
+/// Strain over stress along x, or along the stiffest of the axes and the bisectors between them where these
+/// differ by more than rounding [1/Pa].
 Vector stiffestCompliance(const Body& body, Threads& threads) {
   constexpr double differs = 1 - 1e-9;
-  const Eigen::Vector3d along[] = {{1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0.5}, {0.5, 0.5, -0.5}};
-  const bool space = body.space() != nullptr;  // where elasticity is isotropic
-  const Vector alongX = fromSpaceCartesian(SpaceStress::Unit(0));
+  // s11, s22, s12, s33, s13, s23; the first four are of the plane.
+  const SpaceStress along[] = {
+      {1, 0, 0, 0, 0, 0},        {0, 1, 0, 0, 0, 0},       {0.5, 0.5, 0.5, 0, 0, 0},
+      {0.5, 0.5, -0.5, 0, 0, 0}, {0, 0, 0, 1, 0, 0},       {0.5, 0, 0, 0.5, 0.5, 0},
+      {0.5, 0, 0, 0.5, -0.5, 0}, {0, 0.5, 0, 0.5, 0, 0.5}, {0, 0.5, 0, 0.5, 0, -0.5}};
+  const bool space = body.space() != nullptr;
   Matrix stress(body.material().components(), body.points());
   Matrix strain(body.material().components(), body.points());
   Vector result(body.points());
   forEachBlock(body.points(), threads, [&](int begin, int end) {
     auto own = stress.middleCols(begin, end - begin);
     own.setZero();
-    for (const Eigen::Vector3d& cartesian : along) {
+    for (const SpaceStress& s : along) {
       if (space)
-        own.colwise() = alongX;
+        own.topRows<6>().colwise() = fromSpaceCartesian(SpaceStress{s[0], s[1], s[3], s[2], s[4], s[5]});
+      else if (&s == along + 4)
+        break;
       else
-        own.topRows<3>().colwise() = fromCartesian(cartesian);
+        own.topRows<3>().colwise() = fromCartesian(s.head<3>());
       body.material().elasticStrain(stress, strain, begin, end);
       for (int i = begin; i < end; ++i) {
         const double compliance = stress.col(i).dot(strain.col(i));
-        if (&cartesian == along || compliance < differs * result[i]) result[i] = compliance;
+        if (&s == along || compliance < differs * result[i]) result[i] = compliance;
       }
     }
   });

@@ -50,6 +50,7 @@ void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
   const ContactInterface::SurfacePoints& points = contact.surfacePoints();
   const Matrix jump =
       points.jump(state.bodies[nonmortar.body].displacement, state.bodies[mortar.body].displacement);
+  const Vector apart = contact.pointDistances(state.time);
   const Vector pressure = points.rows * contact.contactPressure(state.contactForce[interface]);
   std::array<std::vector<std::array<int, 3>>, 2> triangles;
   const std::array<ContactSide, 2> sides{nonmortar, mortar};
@@ -63,7 +64,7 @@ void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
     return found == surface.end() ? 0 : found->second;
   };
   for (Eigen::Index i = 0; i < jump.cols(); ++i) {
-    double gap = points.normals[i].dot(jump.col(i)) - points.distances[i];
+    double gap = points.normals[i].dot(jump.col(i)) - apart[i];
     if (!(pressure[i] > 0)) gap = std::max(gap, 0.0);
     const int element = elementOf(0, i);
     const Compliance compliance =

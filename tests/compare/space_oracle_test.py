@@ -89,7 +89,10 @@ class SpaceOracle(unittest.TestCase):
         for setting, message in (
                 ("degree=2", "degree = 2"),
                 ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=1}', "material: law"),
-                ("contact.initial=close", 'initial = "close"'),
+                ("contact.initial=close", 'initial = "close"'), ("contact.gap=0.1", "contact: gap"),
+                ("body.temperature=1", "temperature"), ("body.initial_stress={s13=1}", "initial stress"),
+                ('body.material={elasticity="general", stiffness=[[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],'
+                 '[0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,1]]}', 'elasticity = "general"'),
                 ("body.lower.boundary=[{label=1, un=0}, {label=4, ux=0}, {label=5, uy=0}]", ": un"),
                 ("body.lower.point=[{at=[1, 1, -1], ux=0}]", "a support at a point"),
                 ("time.scheme=sdirk2", "scheme = sdirk2")):

@@ -50,8 +50,8 @@ Vector times(const SparsePattern& K, const std::vector<double>& values, const Ve
 }
 
 TEST(AxisymmetricTangent, isThatOfDifferences) {
-  const Anisotropy wood =
-      turned(anisotropyOf(Orthotropy{{100, 30, 60}, {0.2, 0.1, 0.15}, 20}, Plane::axisymmetric), 0.4);
+  const Anisotropy wood = turned(
+      anisotropyOf(Orthotropy{{100, 30, 60}, {0.2, 0.1, 0.15}, {20}}, Plane::axisymmetric), axesAt(0.4));
   const std::shared_ptr<const Material> materials[] = {
       overstressMaterial(elasticity, {1.3, 0.7, 0.2, 1}, Plane::axisymmetric),
       overstressMaterial(elasticity, {1.3, 0.7, 0.2, 3.5, 20, 0}, Plane::axisymmetric),

@@ -174,7 +174,8 @@ inline std::shared_ptr<const Material> materialOf(const Case& of, Random& random
     case 8: {
       const double across = of.stiffness * random.in(0.3, 1);
       return anisotropicMaterial(
-          anisotropyOf({{of.stiffness, across, across}, {0.3, 0.2, 0.2}, 0.35 * of.stiffness}, of.plane),
+          anisotropyOf(Orthotropy{{of.stiffness, across, across}, {0.3, 0.2, 0.2}, {0.35 * of.stiffness}},
+                       of.plane),
           Viscoplasticity{of.viscosity, 1, Projection::frobenius}, of.plane);
     }
     default: {

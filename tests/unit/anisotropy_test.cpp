@@ -5,7 +5,10 @@
 
 #include <random>
 
+#include <Eigen/Geometry>
+
 #include "base/error.h"
+#include "material/space.h"
 
 namespace mortier::anisotropy_test {
 
@@ -14,8 +17,12 @@ constexpr double rounding = 1e-12;
 /// One point of a material.
 struct Answer {
   Vector predictor;
-  Matrix moduli;  ///< components x the three strains of the plane
+  Matrix moduli;  ///< components x the three strains of the plane, or the six of space
 };
+
+int strainsOf(Eigen::Index components) {
+  return components == 6 ? 6 : 3;
+}
 
 Answer linearise(const Material& material, double weight, const Vector& s0, const Vector& strain,
                  const Vector& s) {
@@ -23,8 +30,9 @@ Answer linearise(const Material& material, double weight, const Vector& s0, cons
   const Matrix stress0 = s0;
   const Matrix strains = strain;
   material.linearise({weight, stress0, strains}, Matrix(s), room, 0, 1);
-  Answer answer{room.predictor.col(0), Matrix(s.size(), 3)};
-  for (int j = 0; j < 3; ++j) answer.moduli.col(j) = stressOf(room, Vector::Unit(s.size(), j), 0);
+  Answer answer{room.predictor.col(0), Matrix(s.size(), strainsOf(s.size()))};
+  for (int j = 0; j < strainsOf(s.size()); ++j)
+    answer.moduli.col(j) = stressOf(room, Vector::Unit(s.size(), j), 0);
   return answer;
 }
 
@@ -39,11 +47,17 @@ Vector random(std::mt19937& generator, Eigen::Index n) {
   return Vector::NullaryExpr(n, [&] { return normal(generator); });
 }
 
-const Orthotropy wood{{10, 3, 2}, {0.3, 0.2, 0.25}, 1.5};
-constexpr Plane planes[] = {Plane::stress, Plane::strain};
+const Orthotropy wood{{10, 3, 2}, {0.3, 0.2, 0.25}, {1.5, 1.2, 0.7}};
+constexpr Plane planes[] = {Plane::stress, Plane::strain, Plane::none};
 
 Eigen::Index componentsIn(Plane plane) {
-  return plane == Plane::stress ? 3 : 4;
+  return plane == Plane::stress ? 3 : plane == Plane::none ? 6 : 4;
+}
+
+/// Axes turned in any way that the plane allows.
+Eigen::Matrix3d axesIn(Plane plane, double angle) {
+  if (plane != Plane::none) return axesAt(angle);
+  return Eigen::AngleAxisd(angle, SpacePoint(1, 2, 3).normalized()).toRotationMatrix();
 }
 
 TEST(Anisotropy, isotropicConstantsAreIsotropicElasticity) {
@@ -51,14 +65,17 @@ TEST(Anisotropy, isotropicConstantsAreIsotropicElasticity) {
   const double nu = 0.3;
   std::mt19937 generator(1);
   for (const Plane plane : planes) {
-    const auto isotropic =
-        plane == Plane::stress ? elasticMaterial({e, nu}) : planeStrainElasticMaterial({e, nu});
-    const Orthotropy same{{e, e, e}, {nu, nu, nu}, e / 2 / (1 + nu)};
-    const auto material = anisotropicMaterial(turned(anisotropyOf(same, plane), 0.4), {}, plane);
+    const auto isotropic = plane == Plane::stress ? elasticMaterial({e, nu})
+                           : plane == Plane::none ? spaceElasticMaterial({e, nu})
+                                                  : planeStrainElasticMaterial({e, nu});
+    const double shear = e / 2 / (1 + nu);
+    const Orthotropy same{{e, e, e}, {nu, nu, nu}, {shear, shear, shear}};
+    const auto material =
+        anisotropicMaterial(turned(anisotropyOf(same, plane), axesIn(plane, 0.4)), {}, plane);
     ASSERT_TRUE(material->linear());
     const Vector s0 = random(generator, componentsIn(plane));
     Vector strain = random(generator, componentsIn(plane));
-    if (strain.size() > 3) strain[3] = 0;
+    if (strain.size() == 4) strain[3] = 0;
     const Vector s = random(generator, componentsIn(plane));
     const Answer expected = linearise(*isotropic, 0, s0, strain, s);
     const Answer answer = linearise(*material, 0, s0, strain, s);
@@ -96,6 +113,53 @@ TEST(Anisotropy, strainsOfOneStressAreTheConstants) {
   EXPECT_NEAR(2 * h * strain(2, 2), 1 / 1.5, rounding);
 }
 
+/// In space the constants of the third axis, and tensors that turn with the axes.
+TEST(Anisotropy, bodiesInSpaceHaveNineConstantsInAnyAxes) {
+  const auto strainOf = [](const Anisotropy& own, const Eigen::Matrix3d& s) {
+    Matrix strain;
+    const Vector stress =
+        fromSpaceCartesian(SpaceStress{s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)});
+    anisotropicMaterial(own, {}, Plane::none)->elasticStrain(stress, strain);
+    const SpaceStress e = toSpaceCartesian(SpaceStress(strain));
+    return Eigen::Matrix3d{{e[0], e[3], e[4]}, {e[3], e[1], e[5]}, {e[4], e[5], e[2]}};
+  };
+  const Anisotropy own = anisotropyOf(wood, Plane::none);
+  const auto unit = [](int i, int j) {
+    Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+    s(i, j) = s(j, i) = 1;
+    return s;
+  };
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(strainOf(own, unit(k, k))(k, k), 1 / wood.young[k], rounding);
+  EXPECT_NEAR(strainOf(own, unit(0, 0))(1, 1), -0.3 / 10, rounding);
+  EXPECT_NEAR(strainOf(own, unit(0, 0))(2, 2), -0.2 / 10, rounding);
+  EXPECT_NEAR(strainOf(own, unit(1, 1))(2, 2), -0.25 / 3, rounding);
+  EXPECT_NEAR(2 * strainOf(own, unit(0, 1))(0, 1), 1 / 1.5, rounding);
+  EXPECT_NEAR(2 * strainOf(own, unit(0, 2))(0, 2), 1 / 1.2, rounding);
+  EXPECT_NEAR(2 * strainOf(own, unit(1, 2))(1, 2), 1 / 0.7, rounding);
+
+  std::mt19937 generator(5);
+  const Eigen::Matrix3d axes = axesIn(Plane::none, 1.1);
+  const Vector r = random(generator, 9);
+  const Eigen::Matrix3d any = Eigen::Map<const Eigen::Matrix3d>(r.data());
+  const Eigen::Matrix3d s = any + any.transpose();
+  const Eigen::Matrix3d expected = axes * strainOf(own, axes.transpose() * s * axes) * axes.transpose();
+  EXPECT_LE((strainOf(turned(own, axes), s) - expected).norm(), rounding);
+
+  // The same by its matrix, and what expands along the axes.
+  Matrix compliance = Matrix::Zero(6, 6);  // of s11, s22, s12, s33, s13, s23
+  compliance.diagonal() << 1 / 10.0, 1 / 3.0, 1 / 1.5, 1 / 2.0, 1 / 1.2, 1 / 0.7;
+  compliance(0, 1) = compliance(1, 0) = -0.3 / 10;
+  compliance(0, 3) = compliance(3, 0) = -0.2 / 10;
+  compliance(1, 3) = compliance(3, 1) = -0.25 / 3;
+  EXPECT_LE((anisotropyOf(compliance.inverse(), Plane::none).stiffness - own.stiffness).norm(),
+            rounding * own.stiffness.norm());
+  const SpaceStress along = toSpaceCartesian(SpaceStress(alongAxes({1, 2, 4}, axes, Plane::none)));
+  const Eigen::Matrix3d tensor = axes * Eigen::Vector3d(1, 2, 4).asDiagonal() * axes.transpose();
+  EXPECT_NEAR(along[2], tensor(2, 2), rounding);
+  EXPECT_NEAR(along[4], tensor(0, 2), rounding);
+  EXPECT_NEAR(along[5], tensor(1, 2), rounding);
+}
+
 /// E^-1 (s - s0) + weight G(s) = strain, and the moduli are ds/dstrain, elastic, at yield and far beyond.
 TEST(Anisotropy, lawsOfFlowAreSolvedAndTheirTangentIsThatOfDifferences) {
   std::mt19937 generator(2);
@@ -104,10 +168,11 @@ TEST(Anisotropy, lawsOfFlowAreSolvedAndTheirTangentIsThatOfDifferences) {
     for (const StressLaw& law : laws)
       for (const double weight : {1e-6, 1e-2, 1.0, 1e4})
         for (const double size : {0.05, 0.5, 5.0}) {
-          const auto material = anisotropicMaterial(turned(anisotropyOf(wood, plane), 0.7), law, plane);
+          const auto material =
+              anisotropicMaterial(turned(anisotropyOf(wood, plane), axesIn(plane, 0.7)), law, plane);
           const Vector s0 = 0.1 * random(generator, componentsIn(plane));
           Vector strain = size * random(generator, componentsIn(plane));
-          if (strain.size() > 3) strain[3] = 0;
+          if (strain.size() == 4) strain[3] = 0;
           const Vector s = solve(*material, weight, s0, strain);
           Matrix elastic;
           Matrix rate;
@@ -115,7 +180,7 @@ TEST(Anisotropy, lawsOfFlowAreSolvedAndTheirTangentIsThatOfDifferences) {
           material->viscoplasticRate(Matrix(s), rate);
           EXPECT_LE((elastic + weight * rate - strain).norm(), 1e-10 * (strain.norm() + elastic.norm()));
           const Matrix moduli = linearise(*material, weight, s0, strain, s).moduli;
-          for (int j = 0; j < 3; ++j) {
+          for (int j = 0; j < moduli.cols(); ++j) {
             const double step = 1e-6 * strain.norm();
             const Vector more = solve(*material, weight, s0, strain + step * Vector::Unit(strain.size(), j));
             const Vector less = solve(*material, weight, s0, strain - step * Vector::Unit(strain.size(), j));
@@ -146,10 +211,10 @@ TEST(Anisotropy, axesTurnedAtEveryPointAreTurnedElasticity) {
     Matrix rates;
     material->viscoplasticRate(s, rates);
     for (int i = 0; i < 3; ++i) {
-      const auto one = anisotropicMaterial(turned(own, angles[i]), flow, plane);
+      const auto one = anisotropicMaterial(turned(own, axesAt(angles[i])), flow, plane);
       const Answer expected = linearise(*one, 0.1, s0.col(i), strain.col(i), s.col(i));
       EXPECT_LE((all.predictor.col(i) - expected.predictor).norm(), 1e-11 * expected.predictor.norm());
-      for (int j = 0; j < 3; ++j)
+      for (int j = 0; j < strainsOf(n); ++j)
         EXPECT_LE((stressOf(all, Vector::Unit(n, j), i) - expected.moduli.col(j)).norm(),
                   rounding * expected.moduli.norm());
       Matrix rate;

@@ -56,7 +56,7 @@ std::shared_ptr<const Material> materialOf(const Case& each, int points) {
     std::vector<double> angles;
     for (int i = 0; i < points; ++i) angles.push_back(0.1 * i);
     return turnedMaterial(
-        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, 30}, Plane::stress),
+        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, {30}}, Plane::stress),
                             frobenius, Plane::stress),
         angles);
   }

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "base/error.h"
 #include "contact/surface.h"
+#include "fem/body.h"
+#include "material/space.h"
+#include "material/stress.h"
 #include "mesh/medit.h"
 #include "mesh/read.h"
 #include "mesh/regions.h"
@@ -197,6 +201,87 @@ TEST_F(SpaceMesh, spheresFaceEachOtherAlongTheLineOfTheirCentres) {
         ++tried;
       }
     EXPECT_GT(tried, 10);
+  }
+}
+
+double areaOf(const TetrahedronMesh& mesh, int label) {
+  double sum = 0;
+  for (const auto& [a, b, c] : trianglesOn(mesh, label))
+    sum += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
+  return sum;
+}
+
+/// Volumes and areas converge with the square of the cells; round sides have their vertices on the surface,
+/// and no tetrahedron is much flatter than those of a cube.
+TEST_F(SpaceMesh, ballsAndCylindersAreRound) {
+  const SpacePoint centre(1, -2, 3);
+  const double pi = std::numbers::pi;
+  for (const bool ball : {true, false})
+    for (const std::array<int, 3>& keep :
+         {std::array{0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {1, 1, ball ? -1 : 0}, {-1, -1, 0}}) {
+      double part = 1;
+      for (const int half : keep) part *= half == 0 ? 1 : 0.5;
+      double before = 0;
+      for (const int cells : {4, 8}) {
+        const TetrahedronMesh mesh = roundMesh({ball, centre, 2, 3, keep, {cells, 3 * cells / 2}});
+        const double volume = part * (ball ? 4 * pi / 3 * 8 : pi * 4 * 3);
+        const double area = part * (ball ? 4 * pi * 4 : 2 * pi * 2 * 3);
+        const double off = 1 - volumeOf(mesh) / volume;
+        EXPECT_GT(off, 0);
+        if (before > 0) {
+          EXPECT_LT(off, 0.3 * before);
+          EXPECT_NEAR(areaOf(mesh, 7) / area, 1, 0.02);
+          const std::array flat{keep[0] > 0 ? 4 : 2, keep[1] > 0 ? 5 : 6, 3};
+          for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(keep[axis] == 0 ? 0 : areaOf(mesh, flat[axis]),
+                        keep[axis] == 0 ? 0 : (ball ? 4 * pi : 12) * 2 * part, 0.6);
+        }
+        before = off;
+        for (const int v : verticesOn(mesh, 7)) {
+          SpacePoint x = mesh.vertices[v] - centre;
+          if (!ball) x.z() = 0;
+          EXPECT_NEAR(x.norm(), 2, 1e-14);
+        }
+        double worst = 1;
+        for (const auto& tetrahedron : mesh.tetrahedra) {
+          double longest = 0;
+          for (const auto& [a, b] : sidesOfTetrahedron)
+            longest =
+                std::max(longest, (mesh.vertices[tetrahedron[a]] - mesh.vertices[tetrahedron[b]]).norm());
+          worst = std::min(worst, mortier::volume(mesh, tetrahedron) / std::pow(longest, 3));
+        }
+        EXPECT_GT(worst, 0.02) << ball << ' ' << cells;
+      }
+    }
+}
+
+/// Of a region in place of that of the body, component by component; and temperatures beside.
+TEST_F(SpaceMesh, initialStressesAndExpansionsAreThoseOfRegions) {
+  TetrahedronMesh mesh = twoRegions();
+  const std::vector<int> regions = mesh.regions;
+  const auto constant = [](double value) {
+    return [value](const SpacePoint& /*x*/, double /*t*/) { return value; };
+  };
+  SpaceConditions conditions;
+  conditions.initialStresses = {{0, {}, constant(5)},
+                                {3, {}, constant(1)},
+                                {0, 2, constant(7)},
+                                {5, 1, constant(3)},
+                                {2, 2, constant(4)}};
+  conditions.temperature = [](const SpacePoint& x, double t) { return t * x.z(); };
+  const auto count = static_cast<Eigen::Index>(4 * regions.size());
+  conditions.expansion = Matrix::Zero(6, count);
+  for (Eigen::Index i = 0; i < count; ++i) conditions.expansion(5, i) = regions[i / 4];
+  const Body body("box", std::move(mesh), spaceElasticMaterial({1, 0.3}), conditions, 2);
+  ASSERT_TRUE(body.hasInitialStress() && body.heated());
+  const Matrix stress = body.initialStress();
+  const Matrix strain = body.thermalStrain(3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const bool first = regions[i / 4] == 1;
+    const SpaceStress expected = first ? SpaceStress{5, 0, 1, 0, 0, 3} : SpaceStress{7, 0, 1, 4, 0, 0};
+    EXPECT_LE((toSpaceCartesian(stress.col(i)) - expected).norm(), 1e-14) << i;
+    EXPECT_NEAR(strain(5, i), (first ? 3 : 6) * body.placeOfPoint(static_cast<int>(i)).z(), 1e-14);
+    EXPECT_EQ(strain.col(i).head<5>().norm(), 0);
   }
 }
 

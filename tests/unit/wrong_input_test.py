@@ -170,8 +170,8 @@ FAULTS = [
      "scene.toml:20: body lower: label is missing, expected an integer >= 0"),
     ("[contact]", "region = [ { label = 1, material = { young = 1, poisson = 1 } } ]\n[contact]",
      "scene.toml:20: body lower, region 1: poisson = 1, expected -1 < poisson < 0.5"),
-    ("[contact]", "initial_stress = { s11 = 1, s23 = 1 }\n[contact]",
-     "scene.toml:20: body lower: unknown key s23, did you mean s22?"),
+    ("[contact]", "initial_stress = { s11 = 1, s21 = 1 }\n[contact]",
+     "scene.toml:20: body lower: unknown key s21, did you mean s11?"),
     ("[contact]", "initial_stress = { s11 = \"1/(x-x)\" }\n[contact]",
      "scene.toml:20: body lower: s11 = \"1/(x-x)\", expected a finite number, is inf at x = "),
     # meshes
