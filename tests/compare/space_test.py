@@ -242,6 +242,22 @@ steps = 1
         self.assertIn("bodies in space", said)
         self.assertIn("0 errors", said)
 
+    def test_laws_are_tried_at_the_stresses_of_the_data(self):
+        self.write(CUBES)
+        self.assertIn("stresses up to 10 Pa", self.mortier("law", "scene.toml").stdout)
+        driven = ("--set", "body.upper.boundary.top.tz=", "body.upper.boundary.top.uz=-1e-9*z*t")
+        self.assertIn("stresses up to 300 Pa", self.mortier("law", "scene.toml", *driven).stdout)
+
+    def test_studies_refuse_errors_of_fields_before_they_run(self):
+        self.write(CUBES)
+        study = ('scene = "scene.toml"\n[[error]]\nquantity = "energy"\n[reference]\nsteps = 4\n'
+                 "[[sweep]]\nsteps = [1, 2]\n")
+        self.write(study, "study.toml")
+        self.reject('study.toml:3: error 0: quantity = "energy", expected one of von_mises_min,', "study",
+                    "study.toml", "--quiet", "--out", "studied")
+        self.write(study.replace("energy", "displacement_min_z"), "study.toml")
+        self.mortier("study", "study.toml", "--quiet", "--jobs", "1", "--out", "studied")
+
     def test_linear_tetrahedra_that_lock_are_named(self):
         for settings, fault in ((["body.lower.material={young=1, poisson=0.4999}"], "poisson-limit"),
                                 ([], "flow-locks")):
