@@ -409,10 +409,11 @@ SPACE_KEYS = """\
 dimension = 3
 [[body]]
 name = "upper"
-mesh = { shape = "cuboid", lower = [0.1, 0, 0], upper = [0.9, 1, 1], cells = [2, 1, 2] }
+mesh = { shape = "cylinder", centre = [0, 0, 0], radius = 0.9, height = 1, cells = [2, 1], keep = ["x", "y"] }
 material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
 boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = 3, tz = "-2*t*(1 + z*x)" } ]
 force = { z = "-0.1*y" }
+initial_stress = { s13 = "0.1*y", s23 = 0.1 }
 [[body]]
 name = "lower"
 mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 2 }
@@ -421,6 +422,22 @@ boundary = [ { label = "bottom", uz = 0 }, { label = 4, un = 0 }, { label = 6, p
 [[body.point]]
 at = [0, 0, -1]
 uy = 0
+[[body]]
+name = "beside"
+mesh = { shape = "cuboid", lower = [3, 0, 0], upper = [4, 1, 1], cells = 1 }
+boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }, { label = "top", tz = "-t" } ]
+[body.material]
+elasticity = "orthotropic"
+young1 = 100
+young2 = 50
+young3 = 80
+poisson12 = 0.2
+poisson13 = 0.1
+poisson23 = 0.2
+shear12 = 30
+shear13 = 20
+shear23 = 25
+axes = [[0, 1, 0], [0, 0, 1]]
 [contact]
 sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
 [[quantity]]
@@ -429,7 +446,7 @@ reaction = { body = "lower", label = "bottom" }
 component = "z"
 [[quantity]]
 name = "corner"
-displacement = { body = "upper", point = [0.9, 1, 1] }
+displacement = { body = "upper", point = [0.9, 0, 1] }
 component = "x"
 [time]
 end = 1
