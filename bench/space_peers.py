@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from codes import require_getfem
 from problems import RunFailure
 from process import measured
 
@@ -180,6 +181,7 @@ def run_freefem(program, folder):
 
 
 def run_getfem(folder, cube):
+    require_getfem()
     np.save(folder / "points.npy", cube.points)
     np.save(folder / "tetrahedra.npy", cube.tetrahedra)
     for name, label in (("top", TOP), ("bottom", BOTTOM)):

@@ -140,10 +140,14 @@ def require_plain(case):
         raise RunFailure("takes linear triangles of the meshes as they are only")
 
 
-def run_getfem(case, scene, settings, folder, timeout):
-    require_plain(case)
+def require_getfem():
     if not any((Path(path) / "getfem").is_dir() for path in (*sys.path, "/usr/lib/python3/dist-packages")):
         raise RunFailure("GetFEM is not installed (Debian package python3-getfem)")
+
+
+def run_getfem(case, scene, settings, folder, timeout):
+    require_plain(case)
+    require_getfem()
     return run_peer("getfem_code.py", case, scene, settings, folder, timeout)
 
 
