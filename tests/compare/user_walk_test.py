@@ -11,7 +11,7 @@ from user_walk import explore
 
 # STEP with a bound and rounds; bodies of files with rounds and a bound that is refused; an aim at a quantity
 SEEDS = (1, 11, 17)
-IN_SPACE = (27,)  # a stack of two laws, loads at t = 0
+IN_SPACE = (38,)  # a stack of two laws, loads at t = 0
 RING = """\
 plane = "axisymmetric"
 degree = 2
