@@ -89,7 +89,7 @@ SCENES = {
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
     "ironing": ("body.block.mesh.cells=[12, 3]", "time.steps=1", "time.end=0.4"), "wedge": ("time.steps=4",),
-    "cubes": ("body.material.young=3e4", "time.steps=4"),
+    "cubes": ("body.material.young=3e4", "time.steps=4"), "tilted": (),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}
@@ -98,7 +98,7 @@ UNKNOWN_TO_FREEFEM = {"cook": "no contact interface",
                       "roller": 'a tool that turns beside sliding = "finite"',
                       "press-fit": "contact: a line with corners",
                       "hook": "contact: a line with corners",
-                      "ball": "degree = 2"}
+                      "ball": "degree = 2", "shells": "degree = 2", "round-punch": "degree = 2"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
         "body.bottom.boundary.4.uy=0")
 FREE_BUT_FOR_POINTS = (

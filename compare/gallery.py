@@ -44,6 +44,7 @@ class Entry:
     step: int = None  # of the picture; None: the last one
     course: Callable = None  # a second picture: labels of its axes, and points of both
     balance: float = 1e-12  # force balance, relative
+    beside: tuple = ()  # settings of a second run, drawn next to the first
 
 
 def end_of_contact(run, side):
@@ -63,6 +64,7 @@ def worst_stress(run, exact):
 
 
 TURNED = np.array([-3.6, -6.4, 4.8])  # -10 along (-3/5, 4/5)
+OBLIQUE = np.array([-10, -4, -10, 0, 0, 0])
 
 
 def cook_deflection(run):
@@ -266,9 +268,22 @@ def ball_peak(run):
     return quantity(run, "peak") / np.cbrt(6 * force * modulus**2 / np.pi**3)
 
 
+def shells_pressure(run):
+    """Mean over the sphere of radius 1, of which an eighth is meshed."""
+    return np.sum(run.contact.force) / (np.pi / 2)
+
+
 GALLERY += [
     Entry("cubes", [Number("displacement of the top by backward Euler", lambda run: quantity(run, "top"),
-                           -0.285, 1e-9, "rounding of strains at E = 3e11 yield stresses")], 1),
+                           -0.285, 1e-9, "rounding of strains at E = 3e11 yield stresses")], 1,
+          beside=("contact.variant=interpolation",)),
+    Entry("tilted", [Number("1 + largest deviation of a stress", lambda run: worst_stress(run, OBLIQUE), 1,
+                            1e-12, "rounding")], 5, beside=("contact.variant=interpolation",)),
+    Entry("shells", [Number("mean contact pressure over Lame's",
+                            lambda run: shells_pressure(run) / 0.6089743589743589, 1, 1e-2,
+                            "the mesh: flat triangles on spheres")], 20),
+    Entry("round-punch", [Number("displacement over F (1 - nu^2)/(2 a E)",
+                                 lambda run: quantity(run, "down") / -0.00455, 1, 1e-2, "the mesh")], 50),
     Entry("ball", [Number("peak pressure over Hertz's", ball_peak, 1, 1e-2, "the mesh: 10 elements")], 1,
           balance=1e-11),
 ]
@@ -280,10 +295,15 @@ def run_entry(entry, folder):
 
 def draw(entry, folder, out):
     """Deformed bodies, coloured by von Mises stress."""
-    view = pictures.view(runs.Result(folder), entry.step)
+    folders = [folder]
+    if entry.beside:
+        name = "-".join([entry.scene, *(setting.split("=")[-1] for setting in entry.beside)])
+        scene = f"scenes/{entry.scene}.toml"
+        folders.append(run_mortier(folder.with_name(name), list(entry.beside), scene).folder)
+    seen = [pictures.view(runs.Result(each), entry.step) for each in folders]
     window = entry.window and (*entry.window[0], *entry.window[1])
     with pictures.plt.rc_context(pictures.STYLE):
-        figure = pictures.fields([view], scale=entry.scale, window=window, strips=False)
+        figure = pictures.fields(seen, scale=entry.scale, window=window, strips=False)
         out.mkdir(parents=True, exist_ok=True)
         (out / f"{entry.scene}.png").write_bytes(images.small(images.picture(figure, "png", dpi=90)))
 

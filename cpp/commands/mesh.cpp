@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/command_line.h"
@@ -189,42 +190,57 @@ void printRegions(const std::vector<int>& regions, const std::map<std::string, i
                 named(names, region).c_str());
 }
 
-int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
-  SpacePoint lower = mesh.vertices.front();
-  SpacePoint upper = lower;
-  for (const SpacePoint& p : mesh.vertices) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
+/// "x 0 .. 2, y 1", a coordinate that does not vary alone.
+template <int components>
+std::string extentsOf(const Eigen::AlignedBox<double, components>& box, double size) {
+  constexpr double rounding = 1e-12;  // of the mesh
+  std::string text;
+  for (int c = 0; c < components; ++c) {
+    const auto digitsOf = [&](double value) {
+      return digits(std::abs(value) <= rounding * size ? 0 : value, 9);
+    };
+    text += std::string(c == 0 ? "" : ", ") + "xyz"[c] + " " + digitsOf(box.min()[c]);
+    if (box.sizes()[c] > rounding * size) text += " .. " + digitsOf(box.max()[c]);
   }
+  return text;
+}
+
+template <class Mesh>
+auto boxOf(const Mesh& mesh) {
+  Eigen::AlignedBox<double, std::decay_t<decltype(mesh.vertices.front())>::SizeAtCompileTime> box;
+  for (const auto& vertex : mesh.vertices) box.extend(vertex);
+  return box;
+}
+
+int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
+  const auto box = boxOf(mesh);
+  const double size = box.diagonal().norm();
   double volume = 0;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
     const auto side = [&, from = a](int to) { return SpacePoint(mesh.vertices[to] - mesh.vertices[from]); };
     volume += side(b).cross(side(c)).dot(side(d)) / 6;
   }
-  std::printf("%s\nvertices   %zu\ntetrahedra %zu\nvolume     %.9g\n", file.c_str(), mesh.vertices.size(),
-              mesh.tetrahedra.size(), volume);
-  std::printf("extents    x %.9g .. %.9g, y %.9g .. %.9g, z %.9g .. %.9g\n", lower.x(), upper.x(), lower.y(),
-              upper.y(), lower.z(), upper.z());
+  std::printf("%s\nvertices   %zu\ntetrahedra %zu\nvolume     %.9g\nextents    %s\n", file.c_str(),
+              mesh.vertices.size(), mesh.tetrahedra.size(), volume, extentsOf(box, size).c_str());
   for (const int label : boundaryLabels(mesh)) {
     double area = 0;
+    Eigen::AlignedBox<double, 3> around;
     const auto triangles = trianglesOn(mesh, label);
-    for (const auto& [a, b, c] : triangles)
+    for (const auto& triangle : triangles) {
+      const auto& [a, b, c] = triangle;
       area += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
-    std::printf("label %-5d %s, area %.9g%s\n", label, counted(triangles.size(), "triangle").c_str(), area,
-                named(mesh.labelNames, label).c_str());
+      for (const int vertex : triangle) around.extend(mesh.vertices[vertex]);
+    }
+    std::printf("label %-5d %s, area %.9g%s: %s\n", label, counted(triangles.size(), "triangle").c_str(),
+                area, named(mesh.labelNames, label).c_str(), extentsOf(around, size).c_str());
   }
   printRegions<4>(mesh.regions, mesh.regionNames);
   return exitDone;
 }
 
 int describeMesh(const std::string& file, const TriangleMesh& mesh) {
-  // 1. Extents and area.
-  Point lower = mesh.vertices.front();
-  Point upper = lower;
-  for (const Point& p : mesh.vertices) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
+  const auto box = boxOf(mesh);
+  const double size = box.diagonal().norm();
   double area = 0;
   double worst = 0;
   int worstTriangle = 0;
@@ -235,25 +251,26 @@ int describeMesh(const std::string& file, const TriangleMesh& mesh) {
       worstTriangle = t;
     }
   }
+  std::printf("%s\nvertices   %zu\ntriangles  %zu\narea       %.9g\nextents    %s\n", file.c_str(),
+              mesh.vertices.size(), mesh.triangles.size(), area, extentsOf(box, size).c_str());
+  std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
 
-  // 2. Labels.
-  std::map<int, std::pair<int, double>> boundary;
+  struct Side {
+    size_t edges = 0;
+    double length = 0;
+    Eigen::AlignedBox<double, 2> around;
+  };
+  std::map<int, Side> sides;
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
     const auto [a, b] = mesh.boundaryEdges[e];
-    auto& [edges, length] = boundary[mesh.boundaryLabels[e]];
-    ++edges;
-    length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+    Side& side = sides[mesh.boundaryLabels[e]];
+    ++side.edges;
+    side.length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+    side.around.extend(mesh.vertices[a]).extend(mesh.vertices[b]);
   }
-
-  // 3. Print.
-  std::printf(
-      "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g\nextents    x %.9g .. %.9g, y %.9g .. %.9g\n",
-      file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1],
-      upper[1]);
-  std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
-  for (const auto& [label, what] : boundary) {
-    std::printf("label %-5d %s, length %.9g%s\n", label, counted(what.first, "edge").c_str(), what.second,
-                named(mesh.labelNames, label).c_str());
+  for (const auto& [label, side] : sides) {
+    std::printf("label %-5d %s, length %.9g%s: %s\n", label, counted(side.edges, "edge").c_str(), side.length,
+                named(mesh.labelNames, label).c_str(), extentsOf(side.around, size).c_str());
   }
   printRegions<3>(mesh.regions, mesh.regionNames);
   return exitDone;

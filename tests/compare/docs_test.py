@@ -63,10 +63,12 @@ def run(words, folder, expected=0):
 class Tutorial(InFolder):
     def test_from_an_empty_folder_to_pictures(self):
         files = tutorial.files()
-        self.assertEqual(sorted(files), ["press.geo", "press.toml"])
-        self.assertLessEqual(sum(bool(line) for line in files["press.toml"].splitlines()), 25)
+        self.assertEqual(sorted(files), ["pin.toml", "press.geo", "press.toml"])
         for name, text in files.items():
             self.write(text, name)
+            if name.endswith(".toml"):
+                self.assertLessEqual(sum(bool(line) for line in text.splitlines()), 25)
+        shutil.copy(tutorial.COPIED, self.folder)
         # Every command of the page is one of those.
         self.assertEqual(tutorial.commands(), [command for page, command in commands() if page == TUTORIAL])
         told = {}
@@ -100,7 +102,16 @@ class Tutorial(InFolder):
         kept = json.loads(self.read("press.json"))
         self.assertEqual(kept["settings"], ["accuracy.energy=0.02"])
         self.assertAlmostEqual(kept["quantities"]["force"]["value"] / float(found), 1, delta=1e-6)
-        self.assertIn("press.toml: agrees", told[tutorial.commands()[-1]])
+        self.assertIn("press.toml: agrees", told["mortier compare press.toml --against press.json"])
+        # The part in space.
+        sides = re.findall(r"^label \d .*: (x .*)$", TUTORIAL.read_text(), re.M)
+        self.assertEqual(len(sides), 5)
+        found = re.findall(r"^label \d .*: (x .*)$", told["mortier mesh info pin.step"], re.M)
+        self.assertEqual(found, sides)
+        self.assertIn("0 errors, 0 warnings", told["mortier check pin.toml"])
+        shown = re.search(r"force (-?[\d.]+) N \(", TUTORIAL.read_text())[1]
+        found = re.search(r"force (-?[\d.]+) N \(", told["mortier run pin.toml --accuracy 0.1"])[1]
+        self.assertAlmostEqual(float(found), float(shown), delta=0.05 * abs(float(shown)))
 
 
 class Commands(InSharedFolder):

@@ -34,6 +34,8 @@ class Gallery(InFolder):
                  "wedge": "contact.friction=0.1", "press-fit": "body.ring.material.young=1100",
                  "hook": "contact.friction=0",
                  "cubes": "body.material.viscosity=11", "ball": "body.block.material.young=1.2",
+                 "tilted": "contact.variant=interpolation", "shells": "contact.gap=-0.0011*t",
+                 "round-punch": "body.block.material.young=1.1",
                  "cone": "tool.cone.points=[[0, 0], [10, 1.1], [0, 1.1]]"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
         for entry in GALLERY:

@@ -230,7 +230,7 @@ steps = 1
         mesh = ROOT / "shared-meshes" / "upper-cube-3.mesh"
         said = self.mortier("mesh", "info", mesh).stdout
         self.assertRegex(said, r"vertices +64\ntetrahedra 162\nvolume +1\n")
-        self.assertRegex(said, r"label 3 +18 triangles, area 1, top\n")
+        self.assertRegex(said, r"label 3 +18 triangles, area 1, top: x 0 \.\. 1, y 0 \.\. 1, z 1\n")
         self.assertRegex(said, r"region \d+ +162 tetrahedra")
         self.mortier("mesh", "convert", mesh, "copy.mesh")
         copy = self.mortier("mesh", "info", "copy.mesh").stdout

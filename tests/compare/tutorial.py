@@ -4,12 +4,15 @@
     tests/compare/tutorial.py FOLDER     writes them there, the commands as tutorial.sh
 """
 import re
+import shutil
 import sys
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "tutorial.md"
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "tutorial.md"
+COPIED = ROOT / "shared-meshes" / "pin.step"
 MADE = ("out/press/summary.json", "out/press.plots/fields.png", "out/press.html", "pressures.png",
-        "press.json")
+        "press.json", "out/pin.plots/fields.png", "out/pin.html")
 
 
 def files():
@@ -27,6 +30,7 @@ def main():
     folder = Path(sys.argv[1])
     for name, text in files().items():
         (folder / name).write_text(text)
+    shutil.copy(COPIED, folder)
     made = [f"test -s {name}" for name in MADE]
     (folder / "tutorial.sh").write_text("\n".join(["set -ex", *commands(), *made, ""]))
 

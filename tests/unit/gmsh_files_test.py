@@ -256,7 +256,7 @@ every = 1
             with self.subTest(name=name):
                 info = self.mortier("mesh", "info", name)
                 self.assertEqual(info.stderr, "")
-                for part in ["area       2\n", "label 1 ", "label 2 ", "label 3 ", "label 4 ", "length 2\n",
+                for part in ["area       2\n", "label 1 ", "label 2 ", "label 3 ", "label 4 ", "length 2: x ",
                              "region 1 ", "region 2 "]:
                     self.assertIn(part, info.stdout)
                 self.assertNotIn("label 9", info.stdout)
@@ -319,9 +319,10 @@ every = 1
         self.write('SetFactory("OpenCASCADE"); Merge "plate.step";\n'
                    'Physical Curve("hole", 7) = {5}; Physical Surface("plate", 1) = {1};\n', "named.geo")
         self.assertRegex(self.mortier("mesh", "info", "plate.step").stdout,
-                         r"(?s)x 0 \.\. 20, y 0 \.\. 10\n.*label 1 .*length 20\n.*label 5 .*region 1 ")
+                         r"(?s)x 0 \.\. 20, y 0 \.\. 10\n.*label 1 .*length 20: x 0 \.\. 20, y \d+\n"
+                         r".*label 5 .*region 1 ")
         self.assertIn("x 0 .. 20000,", self.mortier("mesh", "info", "metres.step").stdout)
-        self.assertRegex(self.mortier("mesh", "info", "named.geo").stdout, "label 7 .*, hole\n")
+        self.assertRegex(self.mortier("mesh", "info", "named.geo").stdout, "label 7 .*, hole: ")
         self.write("""[[body]]
 name = "plate"
 mesh = { file = "plate.step", size = 1 }

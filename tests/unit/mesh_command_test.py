@@ -49,8 +49,8 @@ class MeshCommand(OfTwoBlocks):
 
     def test_mesh_info(self):
         text = self.mortier("mesh", "info", "lower.mesh").stdout
-        for part in ["vertices   23", "triangles  32", "label 3     4 edges, length 1\n", "y -1 .. 0\n",
-                     "aspect ratio"]:
+        for part in ["vertices   23", "triangles  32", "label 3     4 edges, length 1: x 0 .. 1, y 0\n",
+                     "y -1 .. 0\n", "aspect ratio"]:
             self.assertIn(part, text)
 
 

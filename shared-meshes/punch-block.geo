@@ -1,0 +1,34 @@
+// A quarter of a half ball of the given radius below z = 0. The disc of radius 1 in its top is "pressed";
+// elements of size f along the edge of the disc, of size h far away.
+SetFactory("OpenCASCADE");
+DefineConstant[ radius = 6, f = 0.1, h = 1.2 ];
+Sphere(1) = {0, 0, 0, radius};
+Box(2) = {0, 0, -radius, radius, radius, radius};
+BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Disk(100) = {0, 0, 0, 1};
+Rectangle(101) = {0, 0, 0, radius, radius};
+BooleanIntersection(102) = { Surface{100}; Delete; }{ Surface{101}; Delete; };
+BooleanFragments{ Volume{3}; Delete; }{ Surface{102}; Delete; }
+e = 1e-4;
+pressed() = Surface In BoundingBox{-e, -e, -e, 1 + e, 1 + e, e};
+level() = Surface In BoundingBox{-e, -e, -e, radius + e, radius + e, e};
+level() -= pressed();
+left() = Surface In BoundingBox{-e, -e, -radius - e, e, radius + e, e};
+front() = Surface In BoundingBox{-e, -e, -radius - e, radius + e, e, e};
+far() = Surface In BoundingBox{-e, -e, -radius - e, radius + e, radius + e, e};
+far() -= {pressed(), level(), left(), front()};
+Physical Volume("block", 1) = Volume In BoundingBox{-e, -e, -radius - e, radius + e, radius + e, e};
+Physical Surface("pressed", 1) = pressed();
+Physical Surface("level", 2) = level();
+Physical Surface("left", 3) = left();
+Physical Surface("front", 4) = front();
+Physical Surface("far", 5) = far();
+Field[1] = MathEval;
+Field[1].F = Sprintf("%g + 0.35*Sqrt((Sqrt(x*x + y*y) - 1)^2 + z*z)", f);
+Field[2] = MathEval;
+Field[2].F = Sprintf("%g", h);
+Field[3] = Min;
+Field[3].FieldsList = {1, 2};
+Background Field = 3;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
