@@ -113,14 +113,15 @@ void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& fau
 }
 
 void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
-  const SegmentGrid grid = boundaryGrid(mesh, topology);
+  const SegmentTree tree(mesh, topology);
   const double tolerance = coincident * extent(mesh);
+  const Point margin = Point::Constant(tolerance);
   std::vector<int> hanging;
   for (const BoundaryEdge& each : topology.boundary) {
     const Point& p = mesh.vertices[each.from];
     bool found = false;
-    grid.near(p, p, [&](int e) {
-      const auto& [a, b] = grid.segments()[e];
+    tree.near(p - margin, p + margin, [&](int e) {
+      const auto& [a, b] = tree.segments()[e];
       found = found || (distanceToSegment(p, {a, b}) <= tolerance && (p - a).norm() > tolerance &&
                         (p - b).norm() > tolerance);
     });
@@ -133,7 +134,7 @@ void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults
 }
 
 void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
-  const SegmentGrid grid = boundaryGrid(mesh, topology);
+  const SegmentTree tree(mesh, topology);
   const auto crosses = [](const std::array<Point, 2>& s, const std::array<Point, 2>& r) {
     constexpr double clear = 1e-9;
     const Point u = s[1] - s[0];
@@ -147,10 +148,10 @@ void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& f
            ((c > scale && d < -scale) || (c < -scale && d > scale));
   };
   for (size_t i = 0; i < topology.boundary.size(); ++i) {
-    const auto& segment = grid.segments()[i];
+    const auto& segment = tree.segments()[i];
     bool found = false;
-    grid.near(segment[0].cwiseMin(segment[1]), segment[0].cwiseMax(segment[1]),
-              [&](int e) { found = found || crosses(segment, grid.segments()[e]); });
+    tree.near(segment[0].cwiseMin(segment[1]), segment[0].cwiseMax(segment[1]),
+              [&](int e) { found = found || crosses(segment, tree.segments()[e]); });
     if (!found) continue;
     faults.add("mesh-overlaps-itself", triangle(mesh, topology.boundary[i].triangle),
                "its boundary crosses itself near " + at(segment[0]));
