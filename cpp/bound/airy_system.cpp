@@ -71,9 +71,9 @@ void AirySystem::add(const std::array<int, 3>& triangle, const std::array<int, 3
       if (!joined(i) && !joined(j)) continue;
       const auto [low, high] = std::minmax(modes[i], modes[j]);
       if (joined(i) && joined(j) && K(i, j) != 0)
-        ofBlock_.push_back({low, high, K(i, j)});
+        ofBlock_.emplace_back(high, low, K(i, j));
       else if (K(i, j) != 0)
-        toBlock_.push_back({modes[joined(i) ? j : i], modes[joined(i) ? i : j], K(i, j)});
+        toBlock_.emplace_back(modes[joined(i) ? i : j], modes[joined(i) ? j : i], K(i, j));
       rest(i, j) = 0;
       rest(j, i) = 0;
     }
@@ -127,21 +127,25 @@ void AirySystem::invertDiagonal() {
 bool AirySystem::factorise() {
   invertDiagonal();
   std::vector<int> number(ofBlock_.empty() ? 0 : b_.size(), -1);  // of the modes that are allowed
-  for (const auto& [column, row, value] : ofBlock_)
-    if (column == row) number[row] = 0;
+  for (const Entry& entry : ofBlock_)
+    if (entry.col() == entry.row()) number[entry.row()] = 0;
   for (int mode = 0; mode < static_cast<int>(number.size()); ++mode)
     if (number[mode] == 0) {
       number[mode] = static_cast<int>(inBlock_.size());
       inBlock_.push_back(mode);
     }
   if (inBlock_.empty()) return true;
-  for (MatrixEntry& entry : ofBlock_) entry = {number[entry.column], number[entry.row], entry.value};
-  block_ = assembled(static_cast<int>(inBlock_.size()), ofBlock_);
+  for (Entry& entry : ofBlock_) entry = {number[entry.row()], number[entry.col()], entry.value()};
+  const auto size = static_cast<int>(inBlock_.size());
+  block_.resize(size, size);
+  block_.setFromTriplets(ofBlock_.begin(), ofBlock_.end());
   ofBlock_ = {};
-  for (int c = 0; c < block_.pattern.size; ++c)
-    block_.values[block_.pattern.columnStart[c]] *= 1 + regularised;  // a linear function is no stress
-  blockSolver_ = multifrontalSolver(block_.pattern, {});
-  return blockSolver_->factorise(block_.values);
+  const int* start = block_.outerIndexPtr();
+  for (int c = 0; c < size; ++c)
+    block_.valuePtr()[start[c]] *= 1 + regularised;  // a linear function is no stress
+  const int* rows = block_.innerIndexPtr();
+  blockSolver_ = multifrontalSolver({size, true, {start, start + size + 1}, {rows, rows + start[size]}}, {});
+  return blockSolver_->factorise({block_.valuePtr(), block_.valuePtr() + start[size]});
 }
 
 void AirySystem::solveBlock(Vector& f) const {
@@ -167,14 +171,14 @@ void AirySystem::forward(Vector& f) const {
     for (int i = 0; i < 4; ++i) f[firstSide_ + side.others[i]] -= side.withOthers[i] * x;
   }
   if (inBlock_.empty()) return;
-  for (const auto& [column, row, value] : toBlock_) f[row] -= value * f[column];
+  for (const Entry& each : toBlock_) f[each.row()] -= each.value() * f[each.col()];
   solveBlock(f);
 }
 
 void AirySystem::backward(Vector& f) const {
   if (!inBlock_.empty()) {
     solveBlock(f);
-    for (const auto& [column, row, value] : toBlock_) f[column] -= value * f[row];
+    for (const Entry& each : toBlock_) f[each.col()] -= each.value() * f[each.row()];
   }
   for (size_t e = sides_.size(); e-- > 0;) {
     const Coupling& side = sides_[e];
@@ -196,12 +200,11 @@ void AirySystem::multiplyDiagonal(const Vector& f, Vector& result) const {
   for (int v = 0; v < vertices_; ++v) at(result, v) = diagonal_[v] * f.segment<3>(stride * v);
   for (size_t e = 0; e < sides_.size(); ++e) result[firstSide_ + e] = sides_[e].own * f[firstSide_ + e];
   for (const int mode : inBlock_) result[mode] = 0;
-  const SparsePattern& pattern = block_.pattern;
-  for (int c = 0; c < pattern.size; ++c)
-    for (int k = pattern.columnStart[c]; k < pattern.columnStart[c + 1]; ++k) {
-      const int r = pattern.rows[k];
-      result[inBlock_[r]] += block_.values[k] * f[inBlock_[c]];
-      if (r != c) result[inBlock_[c]] += block_.values[k] * f[inBlock_[r]];
+  for (int c = 0; c < block_.outerSize(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(block_, c); entry; ++entry) {
+      const auto r = entry.row();
+      result[inBlock_[r]] += entry.value() * f[inBlock_[c]];
+      if (r != c) result[inBlock_[c]] += entry.value() * f[inBlock_[r]];
     }
 }
 

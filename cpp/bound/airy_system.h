@@ -13,13 +13,13 @@
 // the last, which is factorised.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <vector>
 
 #include "bound/side_tractions.h"
 #include "linear/condensing_solver.h"
-#include "linear/matrix_entries.h"
 
 namespace mortier {
 
@@ -68,11 +68,12 @@ class AirySystem {
   std::vector<Coupling> sides_;
   std::vector<int> sidesFrom_;  ///< the sides of which a vertex is the lower end: those from here on
   std::vector<Block> diagonal_, inverse_;
-  std::vector<char> joined_;          ///< by modes, whether they are in the block; empty where none is
-  std::vector<int> inBlock_;          ///< modes of its equations: those that are allowed
-  std::vector<MatrixEntry> ofBlock_;  ///< to be assembled
-  std::vector<MatrixEntry> toBlock_;  ///< rows are modes of the block, columns others
-  SparseSymmetric block_;
+  std::vector<char> joined_;  ///< by modes, whether they are in the block; empty where none is
+  std::vector<int> inBlock_;  ///< modes of its equations: those that are allowed
+  using Entry = Eigen::Triplet<double>;
+  std::vector<Entry> ofBlock_;         ///< to be assembled
+  std::vector<Entry> toBlock_;         ///< rows are modes of the block, columns others
+  Eigen::SparseMatrix<double> block_;  ///< its lower triangle
   std::unique_ptr<CondensingSolver> blockSolver_;
   Vector b_, x_;
   double energy_ = 0;

@@ -8,7 +8,6 @@
 
 #include "base/datum.h"
 #include "base/interrupt.h"
-#include "bound/bound_failure.h"
 #include "bound/flow_potential.h"
 
 namespace mortier {

@@ -12,6 +12,8 @@
 // contact does elsewhere costs a factor that is known, unless gaps close (docs/bounds.md has the proofs).
 #pragma once
 
+#include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,11 @@
 #include "solver/state.h"
 
 namespace mortier {
+
+/// What goes wrong inside a bound is the reason why there is none: the result of the run stays.
+inline std::string reasonOf(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "there is no memory for it" : error.what();
+}
 
 /// Why schemes have none but backward Euler.
 constexpr const char* otherScheme = "steps are not those of backward Euler";

@@ -1,11 +1,11 @@
 #include "bound/side_tractions.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/dense_templates.h"
 #include "bound/composite_reference.h"
 #include "material/stress.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -166,62 +166,27 @@ void takeForces(const TriangleMesh& mesh, int triangle, const Stress& stress, Ve
 }
 
 Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) {
-  struct Half {
-    std::array<int, 2> edge;
-    int place;  ///< 3 triangle + side
-  };
-  // In the order of their edges, and of their places.
-  std::vector<int> next(mesh.vertices.size() + 1, 0);
-  for (const auto& v : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++next[std::min(v[k], v[(k + 1) % 3]) + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<Half> halves(ofTriangle_.size());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      halves[next[a]++] = {{a, b}, static_cast<int>(3 * t) + k};
-    }
-  for (size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
-    while (end < halves.size() && halves[end].edge[0] == halves[begin].edge[0]) ++end;
-    std::sort(halves.data() + begin, halves.data() + end, [](const Half& a, const Half& b) {
-      return a.edge[1] != b.edge[1] ? a.edge[1] < b.edge[1] : a.place < b.place;
-    });
-  }
-  sides_.reserve(halves.size() / 2 + mesh.boundaryEdges.size());
+  const TriangleSides all = sortedSides(mesh);
+  sides_.reserve(all.size() / 2 + mesh.boundaryEdges.size());
   std::vector<std::array<int, 2>> atVertices;
-  for (size_t i = 0; i < halves.size(); ++i) {
-    const bool second =
-        i > 0 && halves[i].edge[0] == halves[i - 1].edge[0] && halves[i].edge[1] == halves[i - 1].edge[1];
-    const int triangle = halves[i].place / 3;
-    const int k = halves[i].place % 3;
-    if (!second) {
-      const auto& v = mesh.triangles[triangle];
-      sides_.push_back({{v[k], v[(k + 1) % 3]}, {triangle, -1}, -1});
-      for (const int vertex : sides_.back().vertices) atVertices.push_back({vertex, count() - 1});
-    } else {
-      sides_.back().triangles[1] = triangle;
-    }
-    ofTriangle_[halves[i].place] = 2 * (count() - 1) + (second ? 1 : 0);
+  forEachEdge(all, [&](std::span<const TriangleSide> on) {
+    const auto& v = mesh.triangles[on[0].triangle()];
+    const int k = on[0].corner();
+    Side& side = sides_.emplace_back(Side{{v[k], v[(k + 1) % 3]}, {on[0].triangle(), -1}, -1});
+    if (on.size() > 1) side.triangles[1] = on[1].triangle();
+    for (const int vertex : side.vertices) atVertices.push_back({vertex, count() - 1});
+    for (const TriangleSide& each : on)
+      ofTriangle_[each.place] = 2 * (count() - 1) + (&each != &on[0] ? 1 : 0);
+  });
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    const auto on = sidesOn(all, mesh.boundaryEdges[e][0], mesh.boundaryEdges[e][1]);
+    if (!on.empty()) sides_[ofTriangle_[on[0].place] >> 1].boundary = static_cast<int>(e);
   }
   listByVertex(mesh.vertices.size(), atVertices, sideStart_, sidesAt_);
   std::vector<std::array<int, 2>> trianglesOf;
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int vertex : mesh.triangles[t]) trianglesOf.push_back({vertex, static_cast<int>(t)});
   listByVertex(mesh.vertices.size(), trianglesOf, triangleStart_, trianglesAt_);
-
-  std::vector<Half> labelled;
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    const auto [a, b] = std::minmax(mesh.boundaryEdges[e][0], mesh.boundaryEdges[e][1]);
-    labelled.push_back({{a, b}, static_cast<int>(e)});
-  }
-  std::sort(labelled.begin(), labelled.end(), [](const Half& a, const Half& b) { return a.edge < b.edge; });
-  size_t at = 0;  // sides ascend by their vertices, too
-  for (Side& side : sides_) {
-    const auto [a, b] = std::minmax(side.vertices[0], side.vertices[1]);
-    const std::array<int, 2> edge{a, b};
-    while (at < labelled.size() && labelled[at].edge < edge) ++at;
-    if (at < labelled.size() && labelled[at].edge == edge) side.boundary = labelled[at].place;
-  }
 }
 
 Eigen::Matrix<double, 2, 3> nodalForces(const TriangleMesh& mesh, int triangle, const BodyLoad& load) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/interrupt.h"
-#include "bound/bound_failure.h"
 #include "bound/flow_potential.h"
 #include "bound/pressures.h"
 

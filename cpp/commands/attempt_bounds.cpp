@@ -6,7 +6,6 @@
 #include <initializer_list>
 
 #include "base/interrupt.h"
-#include "bound/bound_failure.h"
 #include "time/scheme.h"
 
 namespace mortier {

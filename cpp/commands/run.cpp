@@ -15,7 +15,6 @@
 #include "plan/loads.h"
 #include "report/clock.h"
 #include "report/output_file.h"
-#include "report/place_text.h"
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/document.h"

@@ -46,14 +46,14 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
   AccuracyMemory accuracySoFar;
   if (resumes()) {
     Checkpoint stopped = std::move(stopped_->checkpoint);
-    if (toFiles) files.emplace(temporary_, model, error, scene.every, stopped.files);
+    if (toFiles) files.emplace(temporary_, model, error, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
     state = inParts ? ofParts(solvedModel, stopped.state) : std::move(stopped.state);
     memory = inParts ? ofParts(solvedModel, stopped.memory) : std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
   } else {
-    if (toFiles) files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units, scene.every);
+    if (toFiles) files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units);
     state = now.state;
   }
   if (!inParts) error.moveTo(state);
@@ -103,20 +103,20 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
       if (!rounds_) save(empty, state, memory);
       files.reset();
       removeFields(temporary_, written, empty);
-      if (toFiles) files.emplace(temporary_, model, error, scene.every, empty);
+      if (toFiles) files.emplace(temporary_, model, error, empty);
     }
     if (asked(kept || accuracies.asks(report, kept))) {
       {
         std::optional<State> space;
         const State& at = whole(state, space);
         if (writes) error.moveTo(at);
-        if (files && !restarted) files->add(at, report);
+        if (files && !restarted) files->add(at, report, kept);
         if (writes) accuracies.add(report, kept);
       }
       releaseGathered();
     } else {
       error.moveTo(state);
-      if (files && !restarted) files->add(state, report);
+      if (files && !restarted) files->add(state, report, kept);
     }
     if (!restarted && report.step == 0) {
       if (files) empty = files->sync();

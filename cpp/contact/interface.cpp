@@ -105,9 +105,7 @@ ConstraintRows turned(const ConstraintRows& rows) {
     for (ConstraintRows::InnerIterator entry(rows, j); entry; ++entry)
       entries.emplace_back(static_cast<int>(entry.row()), j % 2 == 0 ? j + 1 : j - 1,
                            j % 2 == 0 ? entry.value() : -entry.value());
-  ConstraintRows result(rows.rows(), rows.cols());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return assembled(rows.rows(), rows.cols(), entries);
 }
 
 /// \throws InputError when the distances are not such as the user wants them.
@@ -300,6 +298,17 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   if (distanceMoves()) columns(result.N_, 1, nonmortar, count[0]);
   result.penetration_.renumber(nonmortar, mortar);
   return result;
+}
+
+Vector ContactInterface::nodalGap(double t) const {
+  if (!distanceMoves()) return {};
+  Vector gap = Vector::Zero(N_.cols());
+  for (const auto& [node, place] : gapNodes_) gap[node] = gapInTime_(place, t);
+  return gap;
+}
+
+Vector ContactInterface::distance(double t) const {
+  return distanceMoves() ? Vector(N_ * nodalGap(t)) : distance_;
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar, double t) const {

@@ -25,11 +25,6 @@ std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine
 std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
                               const InterfaceOptions& options);
 
-/// What makes distances of the rows between two surfaces of those given at nodes. \param nodes  of the rows
-Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRows& C1,
-                                           const std::vector<SpacePoint>& normals,
-                                           const std::vector<int>& nodes);
-
 /// The largest sagitta of the elements that face each other and whose curve is not known [m].
 double unknownSagitta(const SmoothPart& part, const FacingLine& mortar);
 

@@ -21,7 +21,6 @@
 #include "base/error.h"
 #include "contact/interface_entries.h"
 #include "contact/surface.h"
-#include "contact/vertex_functions.h"
 
 namespace mortier {
 namespace {
@@ -45,6 +44,25 @@ std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
   if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
   return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
           4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
+}
+
+/// What makes distances of the rows between two surfaces of those given at nodes: a distance moves a
+/// nonmortar node along the normal of the row; where a row has means of motions it has the same of distances.
+/// \param nodes  of the rows
+Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRows& C1,
+                                           const std::vector<SpacePoint>& normals,
+                                           const std::vector<int>& nodes) {
+  Triplets entries;
+  Vector all = Vector::Zero(C1.rows());
+  const auto add = [&](Eigen::Index row, int node, double value) {
+    entries.emplace_back(static_cast<int>(row), node, value);
+    all[row] += value;
+  };
+  for (int column = 0; column < C1.cols() && hasMeans(kind); ++column)
+    for (ConstraintRows::InnerIterator entry(C1, column); entry; ++entry)
+      add(entry.row(), column / 3, entry.value() * normals[entry.row()][column % 3]);
+  for (Eigen::Index row = 0; row < C1.rows() && !hasMeans(kind); ++row) add(row, nodes[row], 1);
+  return all.cwiseInverse().asDiagonal() * assembled(C1.rows(), C1.cols() / 3, entries);
 }
 
 }  // namespace
@@ -307,6 +325,10 @@ double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector
   for (Eigen::Index i = 0; i < jump.cols(); ++i)
     sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - apart[i]);
   return sum;
+}
+
+Vector ContactInterface::pointDistances(double t) const {
+  return distanceMoves() ? Vector(points_.traces[0] * nodalGap(t)) : points_.distances;
 }
 
 Matrix ContactInterface::SurfacePoints::jump(const Vector& uNonmortar, const Vector& uMortar) const {

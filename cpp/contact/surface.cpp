@@ -62,6 +62,26 @@ SpacePoint sideCurve(const SpacePoint& d, const SpacePoint& n0, const SpacePoint
   return ((begin - a * end) * n0 + (end - a * begin) * n1) / sine;
 }
 
+/// Finds the triangles of TriangleTree::findAlong().
+struct NearLine {
+  const SpacePoint& from;
+  const SpacePoint& direction;
+  double radius, reach;
+  const std::vector<Eigen::AlignedBox3d>& boxes;
+  std::vector<int>& found;
+
+  [[nodiscard]] bool intersectVolume(const Eigen::AlignedBox3d& box) const {
+    const SpacePoint middle = box.center() - from;
+    const double size = box.diagonal().norm() / 2;
+    const double along = middle.dot(direction);
+    return std::abs(along) <= reach + size && (middle - along * direction).norm() <= radius + size;
+  }
+  [[nodiscard]] bool intersectObject(int triangle) const {
+    if (intersectVolume(boxes[triangle])) found.push_back(triangle);
+    return false;  // the search goes on
+  }
+};
+
 double areaOf(const std::vector<Point>& polygon) {
   double twice = 0;
   for (size_t i = 2; i < polygon.size(); ++i)
@@ -173,59 +193,18 @@ double ContactSurface::curvatureAt(int triangle, const Eigen::Vector3d& l) const
   return l[0] * a + l[1] * b + l[2] * c;
 }
 
-TriangleTree::TriangleTree(const ContactSurface& surface) : surface_(surface), order_(surface.places.size()) {
-  for (const auto& [a, b, c] : surface.places) {
-    Eigen::AlignedBox3d& box = boxes_.emplace_back(a);
-    box.extend(b).extend(c);
-  }
-  std::iota(order_.begin(), order_.end(), 0);
-  build(0, static_cast<int>(order_.size()));
-}
-
-int TriangleTree::build(int first, int count) {
-  constexpr int ofALeaf = 4;
-  const auto index = static_cast<int>(nodes_.size());
-  Node node{{}, first, count, 0};
-  for (int i = first; i < first + count; ++i) node.box.extend(boxes_[order_[i]]);
-  nodes_.push_back(node);
-  if (count <= ofALeaf) return index;
-  Eigen::Index axis = 0;
-  node.box.sizes().maxCoeff(&axis);
-  const int half = count / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
-                   [&](int a, int b) {
-                     const double x = boxes_[a].center()[axis];
-                     const double y = boxes_[b].center()[axis];
-                     return x != y ? x < y : a < b;
-                   });
-  build(first, half);
-  const int second = build(first + half, count - half);
-  nodes_[index].count = 0;
-  nodes_[index].next = second;
-  return index;
+TriangleTree::TriangleTree(const ContactSurface& surface) : surface_(surface) {
+  for (const auto& [a, b, c] : surface.places) boxes_.emplace_back(a).extend(b).extend(c);
+  std::vector<int> triangles(boxes_.size());
+  std::iota(triangles.begin(), triangles.end(), 0);
+  tree_.init(triangles.begin(), triangles.end(), boxes_.begin(), boxes_.end());
 }
 
 void TriangleTree::findAlong(const SpacePoint& from, const SpacePoint& direction, double radius, double reach,
                              std::vector<int>& found) const {
-  const auto isNear = [&](const Eigen::AlignedBox3d& box) {
-    const SpacePoint middle = box.center() - from;
-    const double size = box.diagonal().norm() / 2;
-    const double along = middle.dot(direction);
-    return std::abs(along) <= reach + size && (middle - along * direction).norm() <= radius + size;
-  };
   found.clear();
-  std::vector<int> open(1, 0);
-  while (!open.empty()) {
-    const int index = open.back();
-    open.pop_back();
-    const Node& node = nodes_[index];
-    if (!isNear(node.box)) continue;
-    for (int i = node.first; i < node.first + node.count; ++i)
-      if (isNear(boxes_[order_[i]])) found.push_back(order_[i]);
-    if (node.count > 0) continue;
-    open.push_back(node.next);
-    open.push_back(index + 1);
-  }
+  NearLine near{from, direction, radius, reach, boxes_, found};
+  Eigen::BVIntersect(tree_, near);
   std::sort(found.begin(), found.end());
 }
 
@@ -294,6 +273,50 @@ void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar
       facing.mu = corners.inverse();
       visit(facing);
     }
+  }
+}
+
+VertexTable verticesOf(const ContactSurface& surface) {
+  VertexTable vertices;
+  for (size_t t = 0; t < surface.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int part = surface.parts[t];
+      VertexFacts& vertex = vertices[{surface.triangles[t][k], part}];
+      vertex.place = surface.places[t][k];
+      vertex.normal = surface.vertexNormals[t][k];
+      vertex.curvature = surface.curvatures[t][k];
+      for (const int other : {(k + 1) % 3, (k + 2) % 3})
+        vertex.neighbours.insert({surface.triangles[t][other], part});
+    }
+  return vertices;
+}
+
+void shareFunctions(VertexTable& vertices) {
+  std::vector<PartVertex> open;
+  for (const auto& [key, vertex] : vertices)
+    if (vertex.rows.empty()) open.push_back(key);
+  while (!open.empty()) {
+    std::vector<std::pair<PartVertex, std::vector<std::pair<int, double>>>> found;
+    std::vector<PartVertex> still;
+    for (const PartVertex& key : open) {
+      std::map<int, double> parts;
+      int givers = 0;
+      for (const PartVertex& neighbour : vertices[key].neighbours) {
+        const auto& rows = vertices[neighbour].rows;
+        givers += rows.empty() ? 0 : 1;
+        for (const auto& [row, part] : rows) parts[row] += part;
+      }
+      if (givers == 0) {
+        still.push_back(key);
+        continue;
+      }
+      std::vector<std::pair<int, double>> rows;
+      for (const auto& [row, part] : parts) rows.emplace_back(row, part / givers);
+      found.emplace_back(key, std::move(rows));
+    }
+    if (found.empty()) return;  // parts of the surface that see nothing
+    for (auto& [key, rows] : found) vertices[key].rows = std::move(rows);
+    open = std::move(still);
   }
 }
 

@@ -4,6 +4,10 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <functional>
+#include <map>
+#include <set>
+#include <unsupported/Eigen/BVH>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -96,17 +100,28 @@ class TriangleTree {
                                             double reach, bool curved) const;
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int first = 0, count = 0;  ///< of order_, of a leaf
-    int next = 0;              ///< the second child; the first follows at once
-  };
-  int build(int first, int count);
-
   const ContactSurface& surface_;
   std::vector<Eigen::AlignedBox3d> boxes_;
-  std::vector<int> order_;
-  std::vector<Node> nodes_;
+  Eigen::KdBVH<double, 3, int> tree_;
 };
+
+/// A vertex of the nonmortar surface, as one of its smooth parts sees it.
+using PartVertex = std::pair<int, int>;  // vertex, part
+
+struct VertexFacts {
+  SpacePoint place, normal;
+  double curvature = 0;
+  std::set<PartVertex> neighbours;
+  bool sees = false;
+  std::vector<std::pair<int, double>> rows;  ///< to which its hat function goes, with which part
+};
+
+using VertexTable = std::map<PartVertex, VertexFacts>;
+
+/// Neighbours are those along edges.
+VertexTable verticesOf(const ContactSurface& surface);
+
+/// Gives the hat functions without a row to neighbours that have one.
+void shareFunctions(VertexTable& vertices);
 
 }  // namespace mortier

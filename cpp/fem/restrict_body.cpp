@@ -1,9 +1,9 @@
 // A part of a body as a body of its own.
 #include <algorithm>
-#include <map>
 
 #include "fem/body.h"
 #include "material/pointwise.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -64,19 +64,9 @@ ElementNodes restrictedNodes(const ElementNodes& whole, const BodyCut& cut, cons
 
 /// Of each labelled edge, whether a triangle of the mesh is behind it.
 std::vector<char> edgesOfTriangles(const TriangleMesh& mesh) {
-  std::map<std::array<int, 2>, size_t> edges;
-  std::vector<char> onLine(mesh.vertices.size(), 0);
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    edges[mesh.boundaryEdges[e]] = e;
-    for (const int vertex : mesh.boundaryEdges[e]) onLine[vertex] = 1;
-  }
-  std::vector<char> own(mesh.boundaryEdges.size(), 0);
-  for (const auto& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const std::array<int, 2> side{triangle[i], triangle[(i + 1) % 3]};
-      if (onLine[side[0]] == 0 || onLine[side[1]] == 0) continue;
-      if (const auto found = edges.find(side); found != edges.end()) own[found->second] = 1;
-    }
+  const TriangleSides sides = sortedSides(mesh);
+  std::vector<char> own;
+  for (const auto& [a, b] : mesh.boundaryEdges) own.push_back(sidesOn(sides, a, b).empty() ? 0 : 1);
   return own;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/element.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -20,29 +21,12 @@ struct TriangleGraph {
 
 /// Interior sides between triangles of one region, as pairs of triangles.
 std::vector<std::array<int, 2>> innerSides(const TriangleMesh& mesh) {
-  // Sides by their lower vertex: its others, and the triangles.
-  std::vector<int> from(mesh.vertices.size() + 1, 0);
-  const auto forEachSide = [&](auto visit) {
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-        visit(low, std::array<int, 2>{high, static_cast<int>(t)});
-      }
-  };
-  forEachSide([&](int low, const std::array<int, 2>&) { ++from[low + 1]; });
-  std::partial_sum(from.begin(), from.end(), from.begin());
-  std::vector<std::array<int, 2>> sides(from.back());
-  std::vector<int> next(from.begin(), from.end() - 1);
-  forEachSide([&](int low, const std::array<int, 2>& side) { sides[next[low]++] = side; });
   std::vector<std::array<int, 2>> pairs;
-  for (size_t v = 0; v + 1 < from.size(); ++v) {
-    std::sort(sides.begin() + from[v], sides.begin() + from[v + 1]);
-    for (int i = from[v]; i + 1 < from[v + 1]; ++i) {
-      const auto& [high, a] = sides[i];
-      const auto& [other, b] = sides[i + 1];
-      if (high == other && mesh.regions[a] == mesh.regions[b]) pairs.push_back({a, b});
-    }
-  }
+  forEachEdge(sortedSides(mesh), [&](std::span<const TriangleSide> sides) {
+    if (sides.size() < 2) return;
+    const std::array pair{sides[0].triangle(), sides[1].triangle()};
+    if (mesh.regions[pair[0]] == mesh.regions[pair[1]]) pairs.push_back(pair);
+  });
   return pairs;
 }
 

@@ -30,18 +30,16 @@ class CholmodCommon {
 /// runs in several threads have the orderings that each would have alone.
 inline std::mutex metisInUse;
 
-/// The lower triangle of a symmetric matrix by columns, or its pattern alone.
-inline cholmod_sparse lowerTriangle(std::vector<int>& columnStart, std::vector<int>& rows,
-                                    double* values = nullptr) {
+/// The pattern of the lower triangle of a symmetric matrix by columns.
+inline cholmod_sparse lowerTriangle(std::vector<int>& columnStart, std::vector<int>& rows) {
   cholmod_sparse A{};
   A.nrow = A.ncol = columnStart.size() - 1;
   A.nzmax = rows.size();
   A.p = columnStart.data();
   A.i = rows.data();
-  A.x = values;
   A.stype = -1;
   A.itype = CHOLMOD_INT;
-  A.xtype = values == nullptr ? CHOLMOD_PATTERN : CHOLMOD_REAL;
+  A.xtype = CHOLMOD_PATTERN;
   A.dtype = CHOLMOD_DOUBLE;
   A.sorted = 1;
   A.packed = 1;

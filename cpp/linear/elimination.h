@@ -39,4 +39,22 @@ struct Elimination {
 /// \param aside  whether METIS is called in a child process: several threads may then do so at once
 Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside = false);
 
+/// Fronts [first, last]: either whole subtrees, all below the same front, or one front above such pieces.
+struct Piece {
+  int first = 0;
+  int last = 0;
+  size_t stack = 0;           ///< doubles that the updates need while the piece is worked on
+  size_t vectorStack = 0;     ///< the same for a vector by the rows of the fronts
+  std::vector<int> children;  ///< pieces below this one; none for subtrees
+};
+
+/// The elimination tree cut into pieces that threads work on.
+struct Pieces {
+  std::vector<Piece> all;   ///< children before parents
+  std::vector<int> parent;  ///< piece above, -1 for none
+};
+
+/// The cut depends on the tree alone, so what is computed does not depend on the number of threads.
+Pieces cutIntoPieces(const std::vector<Front>& fronts);
+
 }  // namespace mortier

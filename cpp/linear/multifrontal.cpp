@@ -4,7 +4,7 @@
 // The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
 // the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
 // In single precision K is scaled by a power of two, and so are right-hand sides: none leaves its range.
-#include "linear/multifrontal.h"
+#include "linear/condensing_solver.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,7 +16,6 @@
 #include "base/interrupt.h"
 #include "linear/dense_kernels.h"
 #include "linear/elimination.h"
-#include "linear/pieces.h"
 
 namespace mortier {
 namespace {

@@ -1,6 +1,6 @@
-#include "linear/pieces.h"
-
 #include <algorithm>
+
+#include "linear/elimination.h"
 
 namespace mortier {
 namespace {

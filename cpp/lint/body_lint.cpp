@@ -46,7 +46,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   constexpr double deep = 0.25;      // of the edges: curved sides that touch overlap by less
   Meeting result;
   const auto [lower, upper] = boundingBox(b);
-  const SegmentGrid grid = boundaryGrid(b, boundaryOfB);
+  const SegmentTree tree(b, boundaryOfB);
   const double edge = meanEdge(b, boundaryOfB);
   constexpr double polygons = 1.5;  // what is seen at other vertices than those of the contact may be deeper
   const double depth = std::max(deep * edge, polygons * meant);
@@ -57,8 +57,8 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
     if ((p.array() < (lower - margin).array()).any() || (p.array() > (upper + margin).array()).any())
       continue;
     double distance = INFINITY;
-    grid.near(p - margin, p + margin,
-              [&](int e) { distance = std::min(distance, distanceToSegment(p, grid.segments()[e])); });
+    tree.near(p - margin, p + margin,
+              [&](int e) { distance = std::min(distance, distanceToSegment(p, tree.segments()[e])); });
     if (distance <= near) {
       ++result.touching;
       result.where = each.from;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 
 #include "base/counted.h"
@@ -68,31 +67,27 @@ void findParts(const TriangleMesh& mesh, Faults& faults) {
 }
 
 /// Boundary vertices that lie where another one does, and boundary edges that do.
-void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+void findDoubles(const TriangleMesh& mesh, const Topology& topology, const SegmentTree& tree,
+                 Faults& faults) {
   const double tolerance = coincident * extent(mesh);
+  const Point margin = Point::Constant(tolerance);
   std::vector<int> vertices;
   for (const BoundaryEdge& edge : topology.boundary) vertices.push_back(edge.from);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::map<int, int> twin;                                         // the lowest vertex at the same place
-  std::map<std::pair<int64_t, int64_t>, std::vector<int>> firsts;  // of each place, by cells of the tolerance
-  const Point origin = boundingBox(mesh)[0];
+  std::map<int, int> twin;  // the lowest vertex at the same place
+  const auto same = [&](int v) { return twin.count(v) != 0 ? twin.at(v) : v; };
   for (const int v : vertices) {
-    const Point cell = ((mesh.vertices[v] - origin) / tolerance).array().floor();
-    const auto i = static_cast<int64_t>(cell.x());
-    const auto j = static_cast<int64_t>(cell.y());
-    int first = -1;
-    for (int64_t k = 0; k < 9 && first < 0; ++k)
-      if (const auto found = firsts.find({i + k % 3 - 1, j + k / 3 - 1}); found != firsts.end())
-        for (const int other : found->second)
-          if ((mesh.vertices[v] - mesh.vertices[other]).norm() <= tolerance) first = other;
-    if (first < 0)
-      firsts[{i, j}].push_back(v);
-    else
-      twin[v] = twin[first] = first;
+    const Point& p = mesh.vertices[v];
+    int first = v;
+    tree.near(p - margin, p + margin, [&](int e) {
+      for (const int other : {topology.boundary[e].from, topology.boundary[e].to})
+        if (other < first && same(other) == other && (p - mesh.vertices[other]).norm() <= tolerance)
+          first = other;
+    });
+    if (first < v) twin[v] = twin[first] = first;
   }
   if (twin.empty()) return;
-  const auto same = [&](int v) { return twin.count(v) != 0 ? twin.at(v) : v; };
   std::map<std::pair<int, int>, int> seen;
   std::vector<const BoundaryEdge*> cracks;
   for (const BoundaryEdge& edge : topology.boundary) {
@@ -112,15 +107,16 @@ void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& fau
                  std::to_string(first->second + 1) + " at " + at(mesh.vertices[first->first]));
 }
 
-void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
-  const SegmentGrid grid = boundaryGrid(mesh, topology);
+void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, const SegmentTree& tree,
+                      Faults& faults) {
   const double tolerance = coincident * extent(mesh);
+  const Point margin = Point::Constant(tolerance);
   std::vector<int> hanging;
   for (const BoundaryEdge& each : topology.boundary) {
     const Point& p = mesh.vertices[each.from];
     bool found = false;
-    grid.near(p, p, [&](int e) {
-      const auto& [a, b] = grid.segments()[e];
+    tree.near(p - margin, p + margin, [&](int e) {
+      const auto& [a, b] = tree.segments()[e];
       found = found || (distanceToSegment(p, {a, b}) <= tolerance && (p - a).norm() > tolerance &&
                         (p - b).norm() > tolerance);
     });
@@ -132,8 +128,8 @@ void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults
                  at(mesh.vertices[hanging.front()]));
 }
 
-void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
-  const SegmentGrid grid = boundaryGrid(mesh, topology);
+void findCrossings(const TriangleMesh& mesh, const Topology& topology, const SegmentTree& tree,
+                   Faults& faults) {
   const auto crosses = [](const std::array<Point, 2>& s, const std::array<Point, 2>& r) {
     constexpr double clear = 1e-9;
     const Point u = s[1] - s[0];
@@ -147,10 +143,10 @@ void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& f
            ((c > scale && d < -scale) || (c < -scale && d > scale));
   };
   for (size_t i = 0; i < topology.boundary.size(); ++i) {
-    const auto& segment = grid.segments()[i];
+    const auto& segment = tree.segments()[i];
     bool found = false;
-    grid.near(segment[0].cwiseMin(segment[1]), segment[0].cwiseMax(segment[1]),
-              [&](int e) { found = found || crosses(segment, grid.segments()[e]); });
+    tree.near(segment[0].cwiseMin(segment[1]), segment[0].cwiseMax(segment[1]),
+              [&](int e) { found = found || crosses(segment, tree.segments()[e]); });
     if (!found) continue;
     faults.add("mesh-overlaps-itself", triangle(mesh, topology.boundary[i].triangle),
                "its boundary crosses itself near " + at(segment[0]));
@@ -214,9 +210,10 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     const TriangleMesh& mesh = *input.meshes[b];
     const Topology& topology = input.topologies[b];
     findParts(mesh, faults);
-    findDoubles(mesh, topology, faults);
-    findHangingNodes(mesh, topology, faults);
-    findCrossings(mesh, topology, faults);
+    const SegmentTree tree(mesh, topology);
+    findDoubles(mesh, topology, tree, faults);
+    findHangingNodes(mesh, topology, tree, faults);
+    findCrossings(mesh, topology, tree, faults);
     findBadTriangles(mesh, topology, refinesMeshes(input.scene), faults);
     findLostDigits(mesh, input.scene.units.length, faults);
   }

@@ -1,6 +1,8 @@
 // Edges of a mesh, and which of them are near a point: what geometric checks ask for.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <unsupported/Eigen/BVH>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -25,35 +27,34 @@ struct Topology {
 /// \pre the mesh is valid (validate).
 Topology topologyOf(const TriangleMesh& mesh);
 
-/// A uniform grid over segments, about one a cell.
-class SegmentGrid {
+/// The edges of `Topology::boundary` in boxes.
+class SegmentTree {
  public:
-  explicit SegmentGrid(std::vector<std::array<Point, 2>> segments);
+  SegmentTree(const TriangleMesh& mesh, const Topology& topology);
 
-  /// Calls visit(segment) for each segment whose cells meet the box, some of them more than once.
+  /// Calls visit(edge) for each edge whose box meets the box between two corners.
   template <class Visit>
   void near(const Point& lower, const Point& upper, Visit visit) const {
-    const auto [x0, y0] = cell(lower);
-    const auto [x1, y1] = cell(upper);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x)
-        for (const int segment : cells_[static_cast<size_t>(y) * columns_ + x]) visit(segment);
+    struct Search {
+      Eigen::AlignedBox2d within;
+      const std::vector<Eigen::AlignedBox2d>& boxes;
+      Visit& visit;
+      bool intersectVolume(const Eigen::AlignedBox2d& box) const { return within.intersects(box); }
+      bool intersectObject(int edge) const {
+        if (intersectVolume(boxes[edge])) visit(edge);
+        return false;  // the search goes on
+      }
+    };
+    Search search{{lower, upper}, boxes_, visit};
+    Eigen::BVIntersect(tree_, search);
   }
   [[nodiscard]] const std::vector<std::array<Point, 2>>& segments() const { return segments_; }
 
  private:
-  [[nodiscard]] std::array<int, 2> cell(const Point& p) const;
-
   std::vector<std::array<Point, 2>> segments_;
-  Point lower_{0, 0};
-  Point size_{1, 1};  ///< of a cell
-  int columns_ = 1;
-  int rows_ = 1;
-  std::vector<std::vector<int>> cells_;
+  std::vector<Eigen::AlignedBox2d> boxes_;
+  Eigen::KdBVH<double, 2, int> tree_;
 };
-
-/// Over the edges of `topology.boundary`, in their order.
-SegmentGrid boundaryGrid(const TriangleMesh& mesh, const Topology& topology);
 
 /// [m]
 double distanceToSegment(const Point& p, const std::array<Point, 2>& segment);

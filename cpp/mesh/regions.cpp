@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -35,38 +36,30 @@ int numberOf(const std::string& region, const Mesh& mesh) {
   throw InputError(mesh.name + ": no region " + region + ", expected one of " + regionsOf(mesh));
 }
 
+/// Leaves out the items that are not to be kept, and what other lists have of them; empty ones stay empty.
+template <class Keep, class Items, class... Others>
+void keepItems(const Keep& keep, Items& items, Others&... others) {
+  size_t kept = 0;
+  const auto take = [&](auto& list, size_t from) {
+    if (!list.empty()) list[kept] = list[from];
+  };
+  for (size_t i = 0; i < items.size(); ++i) {
+    if (!keep(items[i])) continue;
+    (take(others, i), ...);
+    items[kept++] = items[i];
+  }
+  const auto end = [&](auto& list) { list.resize(std::min(list.size(), kept)); };
+  (end(items), (end(others), ...));
+}
+
 template <class Keep>
 void keepEdges(TriangleMesh& mesh, const Keep& keep) {
-  size_t kept = 0;
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    if (!keep(mesh.boundaryEdges[e])) continue;
-    mesh.boundaryEdges[kept] = mesh.boundaryEdges[e];
-    mesh.boundaryLabels[kept] = mesh.boundaryLabels[e];
-    if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles[kept] = mesh.edgeMiddles[e];
-    if (!mesh.edgeCurves.empty()) mesh.edgeCurves[kept] = mesh.edgeCurves[e];
-    ++kept;
-  }
-  mesh.boundaryEdges.resize(kept);
-  mesh.boundaryLabels.resize(kept);
-  if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.resize(kept);
-  if (!mesh.edgeCurves.empty()) mesh.edgeCurves.resize(kept);
+  keepItems(keep, mesh.boundaryEdges, mesh.boundaryLabels, mesh.edgeMiddles, mesh.edgeCurves);
 }
 
-/// The sides of all triangles, smaller vertex first, in order: one that two triangles share stands there
-/// twice.
-std::vector<std::pair<int, int>> sidesOf(const TriangleMesh& mesh) {
-  std::vector<std::pair<int, int>> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (const auto& corners : mesh.triangles)
-    for (int k = 0; k < 3; ++k) sides.emplace_back(std::minmax(corners[k], corners[(k + 1) % 3]));
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
-auto timesIn(const std::vector<std::pair<int, int>>& sides, const std::array<int, 2>& edge) {
-  const auto [first, last] =
-      std::equal_range(sides.begin(), sides.end(), std::pair<int, int>(std::minmax(edge[0], edge[1])));
-  return last - first;
+template <class Keep>
+void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
+  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels);
 }
 
 /// \param elements  triangles or tetrahedra of the mesh
@@ -74,14 +67,7 @@ template <class Mesh, class Elements>
 void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>& regions) {
   std::set<int> wanted;
   for (const std::string& region : regions) wanted.insert(numberOf(region, mesh));
-  size_t kept = 0;
-  for (size_t t = 0; t < elements.size(); ++t) {
-    if (wanted.count(mesh.regions[t]) == 0) continue;
-    elements[kept] = elements[t];
-    mesh.regions[kept++] = mesh.regions[t];
-  }
-  elements.resize(kept);
-  mesh.regions.resize(kept);
+  keepItems([&](int region) { return wanted.count(region) > 0; }, mesh.regions, elements);
 }
 
 /// Leaves out vertices that none of the elements has, and numbers the others by their order in them.
@@ -102,24 +88,12 @@ void renumberVertices(Mesh& mesh, Elements& elements, Boundary& boundary) {
     for (int& v : item) renumber(v);
 }
 
-template <class Keep>
-void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
-  size_t kept = 0;
-  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
-    if (!keep(mesh.boundaryTriangles[i])) continue;
-    mesh.boundaryTriangles[kept] = mesh.boundaryTriangles[i];
-    mesh.boundaryLabels[kept++] = mesh.boundaryLabels[i];
-  }
-  mesh.boundaryTriangles.resize(kept);
-  mesh.boundaryLabels.resize(kept);
-}
-
 }  // namespace
 
 void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
   keepElements(mesh, mesh.triangles, regions);
-  const auto sides = sidesOf(mesh);
-  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) == 1; });
+  const TriangleSides sides = sortedSides(mesh);
+  keepEdges(mesh, [&](const auto& edge) { return sidesOn(sides, edge[0], edge[1]).size() == 1; });
   renumberVertices(mesh, mesh.triangles, mesh.boundaryEdges);
 }
 
@@ -137,8 +111,8 @@ void dropInnerTriangles(TetrahedronMesh& mesh) {
 }
 
 void dropInnerEdges(TriangleMesh& mesh) {
-  const auto sides = sidesOf(mesh);
-  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) < 2; });
+  const TriangleSides sides = sortedSides(mesh);
+  keepEdges(mesh, [&](const auto& edge) { return sidesOn(sides, edge[0], edge[1]).size() < 2; });
 }
 
 }  // namespace mortier

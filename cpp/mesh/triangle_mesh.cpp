@@ -8,6 +8,7 @@
 
 #include "base/digits.h"
 #include "base/fault_error.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -46,19 +47,16 @@ class Validator {
     checkVertices();
     checkTriangles();
     checkNoneUnused();
-    collectEdges();
-    checkSharing();
+    sides_ = sortedSides(mesh_);
+    forEachEdge(sides_, [this](std::span<const TriangleSide> edge) { checkSharing(edge); });
     checkAndOrientLabelledEdges();
   }
 
  private:
-  // One side of a triangle, filed under the smaller of its two vertices.
-  struct Side {
-    int far;       // the larger vertex
-    int triangle;  // whose side it is
-    bool rising;   // the triangle runs from the smaller to the larger vertex
-    bool labelled;
-  };
+  // Whether the triangle runs from the smaller to the larger vertex.
+  bool rises(const TriangleSide& side) const {
+    return mesh_.triangles[side.triangle()][side.corner()] == side.edge[0];
+  }
 
   [[noreturn]] void fail(MeshPart part, int index, const std::string& what,
                          const std::string& id = {}) const {
@@ -120,65 +118,23 @@ class Validator {
          "vertex " + std::to_string(v + 1) + " is unused, expected a corner of a triangle", "unused-vertex");
   }
 
-  // Counting sort by the smaller vertex, then by the larger one: equal edges become neighbours.
-  void collectEdges() {
-    first_.assign(mesh_.vertices.size() + 1, 0);
-    const auto forEachSide = [this](const auto& visit) {
-      for (int t = 0; t < int(mesh_.triangles.size()); ++t) {
-        const auto& v = mesh_.triangles[t];
-        for (int k = 0; k < 3; ++k) visit(t, v[k], v[(k + 1) % 3]);
-      }
-    };
-    forEachSide([this](int, int a, int b) { ++first_[std::min(a, b) + 1]; });
-    for (size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    sides_.resize(3 * mesh_.triangles.size());
-    std::vector<size_t> next(first_.begin(), first_.end() - 1);
-    forEachSide([&](int t, int a, int b) {
-      sides_[next[std::min(a, b)]++] = {std::max(a, b), t, a < b, false};
-    });
-    for (size_t v = 0; v + 1 < first_.size(); ++v) {
-      std::sort(sides_.begin() + first_[v], sides_.begin() + first_[v + 1], [](const Side& a, const Side& b) {
-        return a.far != b.far ? a.far < b.far : a.triangle < b.triangle;
-      });
+  void checkSharing(std::span<const TriangleSide> sides) const {
+    if (sides.size() < 2) return;
+    const size_t several = std::min<size_t>(sides.size(), 3);
+    if (several == 2 && rises(sides[0]) != rises(sides[1])) return;
+    for (size_t i = 0; i < several; ++i) {
+      for (size_t j = i + 1; j < several; ++j) failIfRepeated(sides[i].triangle(), sides[j].triangle());
     }
-  }
-
-  // The sides that lie on one edge: [begin, end) in sides_.
-  std::pair<size_t, size_t> sidesOn(int near, int far) const {
-    const auto begin = std::lower_bound(sides_.begin() + first_[near], sides_.begin() + first_[near + 1], far,
-                                        [](const Side& s, int v) { return s.far < v; });
-    auto end = begin;
-    while (end != sides_.begin() + first_[near + 1] && end->far == far) ++end;
-    return {size_t(begin - sides_.begin()), size_t(end - sides_.begin())};
-  }
-
-  void checkSharing() const {
-    for (int near = 0; near + 1 < int(first_.size()); ++near) {
-      for (size_t begin = first_[near]; begin < first_[near + 1];) {
-        size_t end = begin + 1;
-        while (end < first_[near + 1] && sides_[end].far == sides_[begin].far) ++end;
-        if (end - begin > 1) checkShared(near, begin, end);
-        begin = end;
-      }
-    }
-  }
-
-  void checkShared(int near, size_t begin, size_t end) const {
-    const size_t several = std::min<size_t>(end - begin, 3);
-    if (several == 2 && sides_[begin].rising != sides_[begin + 1].rising) return;
-    for (size_t i = begin; i < begin + several; ++i) {
-      for (size_t j = i + 1; j < begin + several; ++j) failIfRepeated(sides_[i].triangle, sides_[j].triangle);
-    }
-    const int t0 = sides_[begin].triangle, t1 = sides_[begin + 1].triangle;
-    const std::string edge = numbers(std::array<int, 2>{near, sides_[begin].far});
+    const int t0 = sides[0].triangle(), t1 = sides[1].triangle();
+    const std::string edge = numbers(sides[0].edge);
     if (several == 2) {
       fail(MeshPart::triangle, t1,
            "triangles " + std::to_string(t0 + 1) + " and " + std::to_string(t1 + 1) +
                " lie on the same side of edge " + edge + ", expected one on each side",
            "overlapping-triangles");
     }
-    fail(MeshPart::triangle, sides_[begin + 2].triangle,
-         "edge " + edge + " is shared by " + std::to_string(end - begin) + " triangles, expected 2 at most",
+    fail(MeshPart::triangle, sides[2].triangle(),
+         "edge " + edge + " is shared by " + std::to_string(sides.size()) + " triangles, expected 2 at most",
          "overlapping-triangles");
   }
 
@@ -194,20 +150,20 @@ class Validator {
   }
 
   void checkAndOrientLabelledEdges() {
+    std::vector<char> labelled(sides_.size(), 0);
     for (int e = 0; e < int(mesh_.boundaryEdges.size()); ++e) {
       auto& edge = mesh_.boundaryEdges[e];
       const auto failHere = [&](const std::string& what, const std::string& id = {}) {
         fail(MeshPart::edge, e, "edge " + std::to_string(e + 1) + " (" + numbers(edge) + ")" + what, id);
       };
       if (!isVertex(edge[0]) || !isVertex(edge[1])) failHere(", " + range());
-      const auto [near, far] = std::minmax(edge[0], edge[1]);
-      const auto [begin, end] = sidesOn(near, far);
-      if (begin == end)
+      const auto on = sidesOn(sides_, edge[0], edge[1]);
+      if (on.empty())
         failHere(" is not an edge of a triangle, expected an edge of the boundary", "label-inside");
-      if (end - begin > 1)
+      if (on.size() > 1)
         failHere(" lies between two triangles, expected an edge of the boundary", "label-inside");
-      Side& side = sides_[begin];
-      if (side.labelled) {
+      const TriangleSide& side = on.front();
+      if (std::exchange(labelled[&side - sides_.data()], 1) != 0) {
         int other = 0;
         while (std::minmax(mesh_.boundaryEdges[other][0], mesh_.boundaryEdges[other][1]) !=
                std::minmax(edge[0], edge[1]))
@@ -220,8 +176,8 @@ class Validator {
              << ", expected once";
         failHere(text.str(), "label-twice");
       }
-      side.labelled = true;
-      const auto turned = side.rising ? std::array<int, 2>{near, far} : std::array<int, 2>{far, near};
+      const auto& v = mesh_.triangles[side.triangle()];
+      const std::array<int, 2> turned{v[side.corner()], v[(side.corner() + 1) % 3]};
       if (edge != turned && mesh_.hasCurve(e)) std::swap(mesh_.edgeCurves[e].from, mesh_.edgeCurves[e].to);
       edge = turned;
     }
@@ -229,8 +185,7 @@ class Validator {
 
   TriangleMesh& mesh_;
   const FaultPlace& place_;
-  std::vector<size_t> first_;  // sides of the edges whose smaller vertex is v: first_[v] to first_[v + 1]
-  std::vector<Side> sides_;
+  TriangleSides sides_;
 };
 
 }  // namespace

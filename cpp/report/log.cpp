@@ -7,7 +7,6 @@
 
 #include "base/counted.h"
 #include "report/clock.h"
-#include "report/place_text.h"
 #include "report/summary.h"
 
 namespace mortier {

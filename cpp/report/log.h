@@ -1,11 +1,21 @@
 // The log on standard output: what is solved, a row per step, how it ended and how well the equations hold.
 #pragma once
 
+#include <cstdio>
 #include <string>
 
+#include "base/types.h"
 #include "report/accuracy.h"
 
 namespace mortier {
+
+/// "(0.5, 1)", in space "(0.5, 1, 2)", to four digits.
+inline std::string placeText(const SpacePoint& place, int dimension) {
+  char text[96];
+  std::snprintf(text, sizeof text, dimension == 3 ? "(%.4g, %.4g, %.4g)" : "(%.4g, %.4g)", place.x(),
+                place.y(), place.z());
+  return text;
+}
 
 /// What is solved: bodies, interfaces.
 std::string logHeader(const RunFacts& facts, const Model& model);

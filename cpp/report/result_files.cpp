@@ -41,29 +41,27 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 }
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-                         const std::vector<Quantity>& quantities, const Units& units, int every)
+                         const std::vector<Quantity>& quantities, const Units& units)
     : model_(model),
       history_(folder + "/history.csv"),
       contact_(folder + "/contact.csv"),
       fields_(folder, model, error),
-      every_(every),
       lastKept_(-1) {
   writeHistoryHeader(history_, historyColumns(model, quantities, units));
   writeContactHeader(contact_, model);
 }
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const FilesSoFar& soFar)
     : model_(model),
       history_(folder + "/history.csv", soFar.history),
       contact_(folder + "/contact.csv", soFar.contact),
       fields_(folder, model, error, soFar.fields),
-      every_(every),
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 
-void ResultFiles::add(const State& state, const StepReport& report) {
+void ResultFiles::add(const State& state, const StepReport& report, bool kept) {
   if (hasRow(report)) writeHistoryRow(history_, report);
-  if (every_ > 0 && report.step % every_ == 0) keep(state, report.step);
+  if (kept) keep(state, report.step);
 }
 
 void ResultFiles::keep(const State& state, int step) {

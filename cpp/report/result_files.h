@@ -28,16 +28,14 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 class ResultFiles {
  public:
   /// \param error  of the states that are added
-  /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one
-  /// only.
   ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-              const std::vector<Quantity>& quantities, const Units& units, int every);
+              const std::vector<Quantity>& quantities, const Units& units);
   /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
-  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
+  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
               const FilesSoFar& soFar);
 
-  /// Adds a step (or the initial state, step 0).
-  void add(const State& state, const StepReport& report);
+  /// Adds a step (or the initial state, step 0). \param kept  whether its fields and contact are
+  void add(const State& state, const StepReport& report, bool kept);
   /// Brings everything to the disk.
   FilesSoFar sync();
   /// Keeps the last step and closes the files. \returns what was written, by name.
@@ -50,7 +48,6 @@ class ResultFiles {
   OutputFile history_;
   OutputFile contact_;
   Fields fields_;
-  int every_;
   int lastKept_;
 };
 

@@ -5,31 +5,19 @@
 
 #include "fem/rigid_modes.h"
 #include "linear/partition.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
 
 /// Triangles that have a side in common.
 Graph neighbourhoods(const Body& body) {
-  const ElementNodes& nodes = body.elementNodes();
   const size_t triangles = body.mesh().triangles.size();
-  struct Side {
-    int first, second, triangle;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles);
-  for (size_t t = 0; t < triangles; ++t)
-    for (int i = 0; i < 3; ++i) {
-      const auto [first, second] = std::minmax(nodes.of(t)[i], nodes.of(t)[(i + 1) % 3]);
-      sides.push_back({first, second, static_cast<int>(t)});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-  });
+  const TriangleSides sides = sortedSides(body.mesh());
   const auto forEachPair = [&](auto visit) {
-    for (size_t i = 0; i + 1 < sides.size(); ++i)
-      if (sides[i].first == sides[i + 1].first && sides[i].second == sides[i + 1].second)
-        visit(sides[i].triangle, sides[i + 1].triangle);
+    forEachEdge(sides, [&](std::span<const TriangleSide> on) {
+      if (on.size() > 1) visit(on[0].triangle(), on[1].triangle());
+    });
   };
   Graph graph;
   graph.start.assign(triangles + 1, 0);

@@ -8,7 +8,6 @@
 
 #include "base/interrupt.h"
 #include "base/worst.h"
-#include "linear/multifrontal.h"
 
 namespace mortier {
 namespace {

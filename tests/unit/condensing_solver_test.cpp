@@ -8,7 +8,6 @@
 #include <random>
 
 #include "linear/elimination.h"
-#include "linear/multifrontal.h"
 #include "unit/dense_reference.h"
 
 namespace mortier::condensing_solver_test {

@@ -77,10 +77,10 @@ TEST(Topology, countsTheEdgesOfAGrid) {
   for (const BoundaryEdge& edge : topology.boundary) {
     EXPECT_NE(edge.label, noLabel);
     const Point middle = (mesh.vertices[edge.from] + mesh.vertices[edge.to]) / 2;
-    const SegmentGrid grid = boundaryGrid(mesh, topology);
+    const SegmentTree tree(mesh, topology);
     double nearest = INFINITY;
-    grid.near(middle, middle,
-              [&](int e) { nearest = std::min(nearest, distanceToSegment(middle, grid.segments()[e])); });
+    tree.near(middle, middle,
+              [&](int e) { nearest = std::min(nearest, distanceToSegment(middle, tree.segments()[e])); });
     EXPECT_EQ(nearest, 0);
   }
   EXPECT_EQ(distanceToSegment({3, 4}, {Point(0, 0), Point(0, 0)}), 5);
