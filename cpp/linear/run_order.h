@@ -1,4 +1,4 @@
-// In which order the equations of a sparse pattern are eliminated: that of METIS, of as few vertices as will do.
+// In which order the equations of a sparse pattern are eliminated: by METIS, of as few vertices as will do.
 #pragma once
 
 #include <vector>
