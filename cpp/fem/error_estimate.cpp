@@ -249,7 +249,7 @@ void ErrorEstimator::recover(Threads& threads) {
 }
 
 ErrorEstimate ErrorEstimator::operator()(const Matrix& stress, Threads& threads) const {
-  if (body_.space() != nullptr) return estimateInSpace(body_, stress);
+  if (body_.space() != nullptr) return estimateInSpace(body_, stress, threads);
   if (body_.rigid()) return {Vector::Zero(static_cast<Eigen::Index>(body_.mesh().triangles.size())), 0};
   return withElement(body_.degree(),
                      [&](auto element) { return estimate<decltype(element)>(stress, threads); });

@@ -21,7 +21,7 @@ struct ErrorEstimate {
 };
 
 /// Of a body in space (space_estimate.cpp). \param stress  components x points [Pa]
-ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress);
+ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress, Threads& threads);
 
 /// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump
 /// between materials.

@@ -140,12 +140,12 @@ Vector SpaceElements::internalForce(const Matrix& stress) const {
     constexpr int others = 3 * (Element::nodes - 1);
     for (size_t i = 0; i < weights_.size(); ++i) {
       const int* nodes = nodes_.of(i / Element::points);
-      const Eigen::Matrix<double, 6, 1> s =
-          weights_[i] * stress.col(static_cast<Eigen::Index>(i)).template head<6>();
+      const Eigen::Matrix3d T =
+          weights_[i] * tensorOfStress(stress.col(static_cast<Eigen::Index>(i)).template head<6>());
+      const double* G = &gradients_[others * i];
       SpacePoint sum = SpacePoint::Zero();
-      for (int a = 1; a < Element::nodes; ++a) {
-        const double* G = &gradients_[others * i + 3 * (a - 1)];
-        const SpacePoint force = strainOfNode(G[0], G[1], G[2]).transpose() * s;
+      for (int a = 1; a < Element::nodes; ++a, G += 3) {
+        const SpacePoint force = T * SpacePoint(G[0], G[1], G[2]);
         f.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) += force;
         sum += force;
       }
@@ -219,10 +219,11 @@ void SpaceElements::addStressOf(const Vector& d, const Linearisation& law, Matri
       const int* nodes = nodes_.of(i / Element::points);
       const double* G = &gradients_[static_cast<size_t>(others) * i];
       const SpacePoint d0 = d.segment<3>(3 * static_cast<Eigen::Index>(nodes[0]));
-      Eigen::Matrix<double, 6, 1> strain = Eigen::Matrix<double, 6, 1>::Zero();
+      Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
       for (int a = 1; a < Element::nodes; ++a, G += 3)
-        strain +=
-            strainOfNode(G[0], G[1], G[2]) * (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0);
+        H += (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0) *
+             Eigen::RowVector3d(G[0], G[1], G[2]);
+      const Eigen::Vector<double, 6> strain = strainOfGradient(H);
       stress.col(i).head<6>() += spaceModuliAt(law.moduli, i) * strain;
       if (stress.rows() > 6) stress(6, i) += law.beyond.col(i).head<6>().dot(strain);
     }

@@ -95,6 +95,22 @@ inline NodeStrain strainOfNode(double gx, double gy, double gz) {
   return B;
 }
 
+/// The sum of strainOfNode times the displacements, from H = sum of displacement times G'.
+inline Eigen::Vector<double, 6> strainOfGradient(const Eigen::Matrix3d& H) {
+  constexpr double third = std::numbers::inv_sqrt3;
+  constexpr double trace = std::numbers::sqrt2 * std::numbers::inv_sqrt3;
+  const double sum = H(0, 0) + H(1, 1);
+  return {third * (sum - 2 * H(2, 2)), H(0, 0) - H(1, 1), H(0, 1) + H(1, 0),
+          H(0, 2) + H(2, 0),           H(1, 2) + H(2, 1), trace * (sum + H(2, 2))};
+}
+
+/// T with T G = strainOfNode(G)' s.
+inline Eigen::Matrix3d tensorOfStress(const Eigen::Vector<double, 6>& s) {
+  const double k = std::numbers::inv_sqrt3 * s[0];
+  const double h = std::numbers::sqrt2 * std::numbers::inv_sqrt3 * s[5];
+  return Eigen::Matrix3d{{k + s[1] + h, s[2], s[3]}, {s[2], k - s[1] + h, s[4]}, {s[3], s[4], h - 2 * k}};
+}
+
 /// A point of a rule on the unit triangle or tetrahedron, the weights adding up to its size.
 struct SpaceRulePoint {
   SpacePoint at;

@@ -3,125 +3,27 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <mutex>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 
-#include "base/child_process.h"
-#include "base/error.h"
 #include "base/interrupt.h"
 #include "linear/cholmod_common.h"
+#include "linear/run_order.h"
 
 namespace mortier {
 namespace {
-
-struct Columns {
-  std::vector<int> start{0};
-  std::vector<int> rows;
-};
-
-/// The pattern in new positions, lower triangle; `size` positions from 0, entries outside dropped. `clique`
-/// makes the positions from there on couple with each other.
-Columns permuted(const SparsePattern& pattern, const std::vector<int>& position, int size, int clique) {
-  Columns result;
-  std::vector<int> count(size + 1, 0);
-  const auto forEach = [&](auto visit) {
-    for (int j = 0; j < pattern.size; ++j)
-      for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-        const int row = std::max(position[j], position[pattern.rows[k]]);
-        const int column = std::min(position[j], position[pattern.rows[k]]);
-        if (row < size && column < clique && (pattern.symmetric || pattern.rows[k] >= j)) visit(row, column);
-      }
-    for (int column = clique; column < size; ++column)
-      for (int row = column; row < size; ++row) visit(row, column);
-  };
-  forEach([&](int, int column) { ++count[column + 1]; });
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  result.start = count;
-  result.rows.resize(count[size]);
-  forEach([&](int row, int column) { result.rows[count[column]++] = row; });
-  for (int j = 0; j < size; ++j)
-    std::sort(result.rows.begin() + result.start[j], result.rows.begin() + result.start[j + 1]);
-  return result;
-}
-
-/// METIS's order of a pattern. \pre none other of this process calls METIS
-std::vector<int> orderOf(Columns& columns) {
-  CholmodCommon common;
-  std::vector<int> permutation(columns.start.size() - 1);
-  cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
-  if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0) {
-    // METIS traps SIGTERM and takes it for an error of its own, of which there is no other here.
-    if (common->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    requestInterrupt();
-    stopIfInterrupted();
-  }
-  return permutation;
-}
-
-/// The same from a child process; nothing where that did not come to its end.
-std::vector<int> orderAside(Columns& columns) {
-  const auto work = [&] {
-    const std::vector<int> order = orderOf(columns);
-    return std::string(reinterpret_cast<const char*>(order.data()), order.size() * sizeof(int));
-  };
-  std::vector<int> order;
-  try {
-    std::optional<ChildProcess> child;
-    {
-      const std::lock_guard noneInUse(
-          metisInUse);  // a lock of its random numbers would stay shut in the child
-      child.emplace(work, "METIS");
-    }
-    const std::string bytes = child->answer();
-    order.resize(bytes.size() / sizeof(int));
-    std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(order.data()));
-  } catch (const OutputError&) {
-  } catch (const InputError&) {
-  }
-  return order;
-}
-
-/// Fill-reducing order of the interior alone, the kept equations appended.
-std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept, bool aside) {
-  constexpr int worthAProcess = 10000;  // equations
-  std::vector<int> position(pattern.size, 0);
-  const int interior = pattern.size - static_cast<int>(kept.size());
-  for (size_t k = 0; k < kept.size(); ++k) position[kept[k]] = interior + static_cast<int>(k);
-  std::vector<int> equation;
-  for (int i = 0; i < pattern.size; ++i)
-    if (position[i] < interior) {
-      position[i] = static_cast<int>(equation.size());
-      equation.push_back(i);
-    }
-  std::vector<int> permutation;
-  if (interior > 0) {
-    Columns columns = permuted(pattern, position, interior, interior);
-    const UninterruptibleCall deaf;
-    if (aside && interior >= worthAProcess) permutation = orderAside(columns);
-    if (permutation.empty()) {
-      const std::lock_guard alone(metisInUse);
-      permutation = orderOf(columns);
-    }
-  }
-  std::vector<int> order(pattern.size);
-  for (int i = 0; i < interior; ++i) order[i] = equation[permutation[i]];
-  std::copy(kept.begin(), kept.end(), order.begin() + interior);
-  return order;
-}
 
 /// Of a factor: the order, and of each supernode its first column and rows.
 struct Supernodes {
   std::vector<int> permutation, super, rowStart, rows;
 };
 
-/// \param Index  of CHOLMOD's numbers \returns nothing where they do not suffice
+/// \param Index  of CHOLMOD's numbers. \param equationsOfAColumn  about
+/// \returns nothing where the numbers do not suffice
 template <class Index>
-std::optional<Supernodes> supernodesOf(Columns& columns) {
+std::optional<Supernodes> supernodesOf(Columns& columns, int equationsOfAColumn) {
   constexpr bool isLong = !std::is_same_v<Index, int>;
   std::vector<Index> start(isLong ? columns.start.begin() : columns.start.end(), columns.start.end());
   std::vector<Index> rows(isLong ? columns.rows.begin() : columns.rows.end(), columns.rows.end());
@@ -142,9 +44,9 @@ std::optional<Supernodes> supernodesOf(Columns& columns) {
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
-  common.nrelax[0] = 2;
-  common.nrelax[1] = 8;
-  common.nrelax[2] = 24;
+  common.nrelax[0] = std::max(2 / equationsOfAColumn, 1);
+  common.nrelax[1] = 8 / equationsOfAColumn;
+  common.nrelax[2] = 24 / equationsOfAColumn;
   const UninterruptibleCall deaf;
   cholmod_factor* L = nullptr;
   if constexpr (isLong)
@@ -177,26 +79,35 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
   result.size = pattern.size;
   result.kept = static_cast<int>(kept.size());
   if (pattern.size == 0) return result;
-  const int interior = result.size - result.kept;
 
-  const std::vector<int> order = fillReducingOrder(pattern, kept, aside);
+  const Runs runs(pattern, kept);
+  const auto keptRuns = static_cast<int>(runs.kept.size());
+  const int size = runs.pattern.size;
+  const int interior = size - keptRuns;
+  const std::vector<int> order = orderOfRuns(runs, pattern, aside);
   std::vector<int> position(result.size);
-  for (int i = 0; i < result.size; ++i) position[order[i]] = i;
+  for (int i = 0; i < size; ++i) position[order[i]] = i;
 
   // The kept equations couple as a clique, so they end up together in the last supernode.
-  Columns columns = permuted(pattern, position, result.size, interior);
-  std::optional<Supernodes> found = supernodesOf<int>(columns);
-  if (!found) found = supernodesOf<SuiteSparse_long>(columns);  // factors of more than 2^31 numbers
+  Columns columns = permuted(runs.pattern, position, size, interior);
+  const int equationsOfARun = (result.size + size / 2) / size;
+  std::optional<Supernodes> found = supernodesOf<int>(columns, equationsOfARun);
+  if (!found)  // factors of more than 2^31 numbers
+    found = supernodesOf<SuiteSparse_long>(columns, equationsOfARun);
   if (!found) throw std::runtime_error("symbolic analysis of the tangent failed in CHOLMOD");
   columns = {};
   const auto& [permutation, super, rowStart, rows] = *found;
-  result.order.resize(result.size);
-  for (int i = 0; i < result.size; ++i) {
-    result.order[i] = order[permutation[i]];
-    position[result.order[i]] = i;
+  std::vector<int> firstOf{0};  // position of the first equation of each run
+  for (int i = 0; i < size; ++i) {
+    const int run = order[permutation[i]];
+    for (int equation = runs.first[run]; equation < runs.first[run + 1]; ++equation) {
+      position[equation] = static_cast<int>(result.order.size());
+      result.order.push_back(equation);
+    }
+    firstOf.push_back(static_cast<int>(result.order.size()));
   }
   for (int k = 0; k < result.kept; ++k)
-    if (position[kept[k]] != interior + k)
+    if (position[kept[k]] != result.size - result.kept + k)
       throw std::runtime_error("kept equations were moved by the analysis");
 
   const int fronts = static_cast<int>(super.size()) - 1;
@@ -204,9 +115,10 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
   result.fronts.resize(fronts);
   for (int s = 0; s < fronts; ++s) {
     Front& front = result.fronts[s];
-    front.rows.assign(rows.begin() + rowStart[s], rows.begin() + rowStart[s + 1]);
-    front.pivots = std::min(super[s + 1], interior) - super[s];
-    std::fill(frontOf.begin() + super[s], frontOf.begin() + super[s + 1], s);
+    for (int k = rowStart[s]; k < rowStart[s + 1]; ++k)
+      for (int row = firstOf[rows[k]]; row < firstOf[rows[k] + 1]; ++row) front.rows.push_back(row);
+    front.pivots = firstOf[std::min(super[s + 1], interior)] - firstOf[super[s]];
+    std::fill(frontOf.begin() + firstOf[super[s]], frontOf.begin() + firstOf[super[s + 1]], s);
   }
   if (super[fronts - 1] > interior) throw std::runtime_error("kept equations were not gathered in one front");
 

@@ -81,6 +81,10 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
   const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
+  // Without forces to begin with, what overlaps without any may close.
+  if (problem.G.cols() == 0 && p0.isZero(0) && std::count(active.begin(), active.end(), 0) == idles)
+    for (size_t i = 0; i < idle.size(); ++i)
+      active[i] = idle[i] == 0 && slack[static_cast<Eigen::Index>(i)] < 0 ? 1 : 0;
   ContactSolution solution;
   int pivots = 0;
   bool dependent = false;

@@ -90,12 +90,26 @@ class Peeling {
 
 /// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the
 /// set itself. Nothing where the work ends.
-bool dropPulls(ContactSets& contact, ContactSolution& solution, Signs& signs) {
+/// \param exchange  whether what overlaps is closed at once with the drops to begin with (Newton's method on
+/// the complementarity), as long as most times fewer signs are wrong
+bool dropPulls(ContactSets& contact, ContactSolution& solution, Signs& signs, bool exchange = false) {
+  constexpr int patience = 2;
   Peeling peeling;
+  size_t wrong = solution.active.size() + 1;
+  int inVain = 0;
   while (!contact.redundant() && !contact.capped()) {
     stopIfInterrupted();
     if (!contact.solveOn(solution)) return false;
     signs = contact.signsOf(solution);
+    const size_t now = signs.pulls.size() + signs.overlaps.size();
+    inVain += now < wrong ? 0 : 1;
+    wrong = std::min(wrong, now);
+    exchange = exchange && inVain < patience;
+    if (exchange && now > 0) {
+      for (const int i : signs.pulls) solution.active[i] = 0;
+      for (const int i : signs.overlaps) solution.active[i] = 1;
+      continue;
+    }
     if (peeling.takeBack(signs, solution.active)) continue;
     peeling.drop(signs, solution.active);
     if (!signs.pulls.empty()) continue;
@@ -168,7 +182,7 @@ bool pivot(ContactSets& contact, ContactSolution& solution) {
   constexpr double shallower = 0.9;
   const ContactProblem& problem = contact.problem();
   Signs best;
-  if (!dropPulls(contact, solution, best)) return false;
+  if (!dropPulls(contact, solution, best, true)) return false;
   size_t atOnce = solution.active.size();
   double least = depthOf(best, contact.diagonal());
   bool pressed = 2 * best.overlaps.size() > solution.active.size();  // most of what closes may stay closed

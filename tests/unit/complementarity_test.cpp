@@ -270,6 +270,32 @@ TEST(Complementarity, contactPeelsOffInFewSets) {
   EXPECT_LE(solution.pivots, 40);
 }
 
+// A paraboloid on a half space, nodes on a grid: what is pressed together, further by a tenth and by a third.
+TEST(Complementarity, surfacesCloseInFewSets) {
+  constexpr int side = 31;
+  constexpr int n = side * side;
+  Matrix W(n, n);
+  Vector distance(n);
+  for (int i = 0; i < n; ++i) {
+    const auto at = [](int k) -> Eigen::Vector2d { return Eigen::Vector2d(k / side, k % side) / (side - 1); };
+    for (int j = 0; j < n; ++j)
+      W(i, j) = 1 / std::max((at(i) - at(j)).norm(), 1 / (3.5 * (side - 1)));  // of a cell on itself
+    distance[i] = at(i).squaredNorm() / 2;
+  }
+  const auto pressed = [&](double depth, const Vector& p0, std::vector<char> active) {
+    const RandomProblem c{{W, true, Matrix(n, 0)}, (distance + W * p0).array() - depth, p0, Vector(0)};
+    return solve(c, std::move(active));
+  };
+  const ContactSolution cold = pressed(0.05, Vector::Zero(n), std::vector<char>(n, 1));
+  ASSERT_EQ(cold.outcome, Outcome::solved);
+  EXPECT_LE(cold.pivots, 6);
+  const ContactSolution warm = pressed(0.055, cold.change, cold.active);
+  EXPECT_LE(warm.pivots, 4);
+  const ContactSolution further = pressed(0.0715, cold.change + warm.change, warm.active);
+  ASSERT_EQ(further.outcome, Outcome::solved);
+  EXPECT_LE(further.pivots, 4);
+}
+
 // Not a P-matrix: pivoting goes round, and says that it was stopped and not that there is no solution.
 TEST(Complementarity, workThatHasNoEndIsCutOff) {
   constexpr int n = 300;
