@@ -64,7 +64,6 @@ void requireKnownInSpace(const TableReader& root, const SceneDescription& scene)
   const Node* solver = root.find("solver");
   if (solver != nullptr && scene.solver.method != Method::newton)
     refuse(solver->where, "solver: method = \"penalty-duality\"");
-  if (scene.time.controlled()) refuse(root.find("time")->where, "time: tolerance");
   for (const BodyDescription& body : scene.bodies) requireKnown(body);
   for (const ContactDescription& contact : scene.contacts) requireKnown(contact, scene.degree);
   for (const QuantityDescription& quantity : scene.quantities) requireKnown(quantity);

@@ -174,7 +174,6 @@ steps = 10
                 ("contact.sliding=finite", "sliding = \"finite\", expected none"),
                 ("contact.variant=coarsened", 'variant = "coarsened", expected "weighted", "mortar" or '
                  '"interpolation": vertices left out leave a line of longer edges, but no triangles'),
-                ("time.tolerance=0.01", "time: tolerance, expected none"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
                 ('body.upper.volume=averaged', 'expected pointwise'),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
