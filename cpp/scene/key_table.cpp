@@ -99,6 +99,7 @@ parameters | | none | table of numbers and expressions; with law = "expression" 
 isotropic | | false | true, false; with law = "expression" | states that the user-defined law, or the
   registered one, is isotropic; `mortier law` then checks it
 elasticity | | `"isotropic"` | `"isotropic"`, `"orthotropic"`, `"general"` | the others have keys of their own
+rate13, rate23 | 1/s | | expressions; with law = "expression" | the same with `dimension = 3`
   in place of `young` and `poisson` ([below](#elasticity-with-axes))
 young1, young2, shear12 | Pa | | > 0; with elasticity = "orthotropic" | moduli along the two axes of the plane
   and of shear between them

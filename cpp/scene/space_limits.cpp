@@ -11,15 +11,8 @@ constexpr auto inThePlane = " with dimension = 3: known in the plane only";
   throw InputError(where + ": " + what + ", expected none" + inThePlane);
 }
 
-void requireKnown(const MaterialDescription& material, const std::string& where) {
-  if (material.as<OwnLaw>() != nullptr) refuse(where, "material: a law of its own");
-}
-
 void requireKnown(const BodyDescription& body) {
   const std::string where = body.where + ": body " + body.name;
-  requireKnown(body.material, where);
-  for (const RegionDescription& region : body.regions)
-    if (region.material) requireKnown(*region.material, region.where + ": body " + body.name);
   if (body.volume == Volume::averaged)
     throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
 }
