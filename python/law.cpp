@@ -46,6 +46,7 @@ class PythonLaw final : public RateLaw {
         name_(std::move(name)) {}
 
   [[nodiscard]] bool needsTotalStrain() const override { return needsTotalStrain_; }
+  [[nodiscard]] bool takes(int /*components*/) const override { return true; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
     const py::gil_scoped_acquire held;
     try {
@@ -80,23 +81,28 @@ class PythonLaw final : public RateLaw {
 
   [[nodiscard]] Matrix rateAt(const Matrix& stress, const Matrix& strain) const {
     const Numbers rates = call(callables_->rate, stress, strain);
-    const bool right = rates.ndim() == 2 && rates.shape(0) == stress.cols() && rates.shape(1) == 4;
-    requireShape(rates, right, "a rate", "(" + std::to_string(stress.cols()) + ", 4)");
-    return Eigen::Map<const Matrix>(rates.data(), 4, stress.cols());
+    const Eigen::Index n = stress.rows();
+    const bool right = rates.ndim() == 2 && rates.shape(0) == stress.cols() && rates.shape(1) == n;
+    requireShape(rates, right, "a rate",
+                 "(" + std::to_string(stress.cols()) + ", " + std::to_string(n) + ")");
+    return Eigen::Map<const Matrix>(rates.data(), n, stress.cols());
   }
 
-  /// (points, 4, 4): [point, component of the rate, of the stress]; (points, 4, 8) with those of the strain.
+  /// (points, n, n): [point, component of the rate, of the stress]; (points, n, 2n) with those of the strain;
+  /// n = 4, in space 6.
   [[nodiscard]] Matrix derivativeAt(const Matrix& stress, const Matrix& strain) const {
     const Numbers all = call(callables_->derivative, stress, strain);
-    const py::ssize_t directions = slopeRows() / 4;
+    const Eigen::Index n = stress.rows();
+    const py::ssize_t directions = slopeRows(n) / n;
     const bool right =
-        all.ndim() == 3 && all.shape(0) == stress.cols() && all.shape(1) == 4 && all.shape(2) == directions;
+        all.ndim() == 3 && all.shape(0) == stress.cols() && all.shape(1) == n && all.shape(2) == directions;
     requireShape(all, right, "a derivative",
-                 "(" + std::to_string(stress.cols()) + ", 4, " + std::to_string(directions) + ")");
-    Matrix slopes(slopeRows(), stress.cols());
+                 "(" + std::to_string(stress.cols()) + ", " + std::to_string(n) + ", " +
+                     std::to_string(directions) + ")");
+    Matrix slopes(slopeRows(n), stress.cols());
     for (py::ssize_t i = 0; i < all.shape(0); ++i)
-      for (py::ssize_t c = 0; c < 4; ++c)
-        for (py::ssize_t k = 0; k < directions; ++k) slopes(4 * k + c, i) = all.at(i, c, k);
+      for (py::ssize_t c = 0; c < n; ++c)
+        for (py::ssize_t k = 0; k < directions; ++k) slopes(n * k + c, i) = all.at(i, c, k);
     return slopes;
   }
 
@@ -104,10 +110,12 @@ class PythonLaw final : public RateLaw {
   void difference(const Matrix& stress, const Matrix& strain, Matrix& slopes) const {
     constexpr double part = 6e-6;  // the third root of what doubles resolve
     const Eigen::Index points = stress.cols();
-    const Eigen::Index directions = slopeRows() / 4;
+    const Eigen::Index n = stress.rows();
+    const Eigen::Index directions = slopeRows(n) / n;
+    const Eigen::Index known = n == 4 ? 3 : n;  // in plane stress the last strain is not
     const auto stepOf = [&](const Matrix& of, Eigen::Index i) {
-      const double all = of.topRows(3).cwiseAbs().maxCoeff();
-      const double own = of.col(i).head<3>().cwiseAbs().maxCoeff();
+      const double all = of.topRows(known).cwiseAbs().maxCoeff();
+      const double own = of.col(i).head(known).cwiseAbs().maxCoeff();
       const double size = own > 0 ? own : all;
       return size > 0 ? part * size : part * part;
     };
@@ -115,20 +123,20 @@ class PythonLaw final : public RateLaw {
     Matrix e = strain.replicate(1, 2 * directions);
     for (Eigen::Index k = 0; k < directions; ++k)
       for (Eigen::Index i = 0; i < points; ++i) {
-        Matrix& moved = k < 4 ? s : e;
-        const double h = stepOf(k < 4 ? stress : strain, i);
-        moved(k % 4, 2 * k * points + i) += h;
-        moved(k % 4, (2 * k + 1) * points + i) -= h;
+        Matrix& moved = k < n ? s : e;
+        const double h = stepOf(k < n ? stress : strain, i);
+        moved(k % n, 2 * k * points + i) += h;
+        moved(k % n, (2 * k + 1) * points + i) -= h;
       }
     const Matrix rates = rateAt(s, e);
     for (Eigen::Index k = 0; k < directions; ++k)
       for (Eigen::Index i = 0; i < points; ++i) {
-        const Matrix& of = k < 4 ? s : e;
+        const Matrix& of = k < n ? s : e;
         const Eigen::Index above = 2 * k * points + i;
         const Eigen::Index below = above + points;
-        const double h = of(k % 4, above) - of(k % 4, below);
-        slopes.col(i).segment<4>(4 * k) =
-            std::isfinite(h) ? Vector((rates.col(above) - rates.col(below)) / h) : Vector::Zero(4);
+        const double h = of(k % n, above) - of(k % n, below);
+        slopes.col(i).segment(n * k, n) =
+            std::isfinite(h) ? Vector((rates.col(above) - rates.col(below)) / h) : Vector::Zero(n);
       }
   }
 

@@ -240,8 +240,6 @@ std::vector<std::string> Rounds::doubts() const {
   if (meshes_.offCurve() > 0)
     doubts.push_back("not on the curve of their boundary, where elements would turn over: " +
                      counted(meshes_.offCurve(), "vertex"));
-  if (meshes_.inSpace() && std::any_of(description_.bodies.begin(), description_.bodies.end(), mayFlow))
-    doubts.emplace_back("bodies may flow in equal steps, whose error is not estimated in space");
   return doubts;
 }
 

@@ -13,6 +13,7 @@ namespace mortier {
 /// A part of space and time.
 struct Box {
   Interval x, y, t;
+  Interval z{0, 0};  ///< in space
 };
 
 struct Datum : Function {
@@ -24,7 +25,7 @@ struct Datum : Function {
   Datum() = default;
   Datum(Function value) : Function(std::move(value)) {}  // NOLINT: it is a function of which nothing is known
 
-  int degree = anyDegree;        ///< of the polynomial in x and y that it is at every time
+  int degree = anyDegree;        ///< of the polynomial in x, y and z that it is at every time
   bool inTime = true;            ///< whether it may change in time
   int degreeInTime = anyDegree;  ///< of the polynomial in t that it is at every place
   /// Holds all values in a box; empty where nothing is known. Copies are independent.

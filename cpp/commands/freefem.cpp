@@ -37,7 +37,7 @@ std::string methodFolder(const std::string& scene) {
 
 /// FreeFEM reads whole Medit files.
 bool isReadByFreefem(const MeshSource& mesh) {
-  return !mesh.shape && !mesh.inSpace && !isGmshFile(mesh.path) && mesh.regions.empty();
+  return !mesh.shape && !mesh.inSpace && !mesh.sweep && !isGmshFile(mesh.path) && mesh.regions.empty();
 }
 
 /// `meshFile`: as FreeFEM opens it.

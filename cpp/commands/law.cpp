@@ -26,9 +26,20 @@ struct LawOptions : SceneOptions {
 
 std::string atStress(const Vector& stress, const std::string& unit) {
   if (stress.size() == 0) return "";
+  const auto listed = [&](std::initializer_list<std::pair<const char*, double>> components) {
+    std::string text;
+    for (const auto& [name, value] : components)
+      text += std::string(text.empty() ? " at " : ", ") + name + " = " + digits(value, 3);
+    return text;
+  };
+  if (stress.size() >= 6) {
+    const SpaceStress s = toSpaceCartesian(stress.head<6>());
+    return listed(
+               {{"s11", s[0]}, {"s22", s[1]}, {"s12", s[3]}, {"s33", s[2]}, {"s13", s[4]}, {"s23", s[5]}}) +
+           " " + unit;
+  }
   const Eigen::Vector3d s = toCartesian(stress.head<3>());
-  std::string text =
-      " at s11 = " + digits(s[0], 3) + ", s22 = " + digits(s[1], 3) + ", s12 = " + digits(s[2], 3);
+  std::string text = listed({{"s11", s[0]}, {"s22", s[1]}, {"s12", s[2]}});
   if (stress.size() > 3) text += ", s33 = " + digits(stress[3], 3);
   return text + " " + unit;
 }
@@ -107,16 +118,17 @@ int tryLaws(const LawOptions& command) {
     for (const MaterialDescription* description : materialsOf(body)) {
       MaterialDescription inItsAxes = *description;
       if (inItsAxes.anisotropy) inItsAxes.anisotropy->angle.reset();
-      const Plane plane = scene.inSpace() ? Plane::strain : scene.plane;  // without shears across the plane
-      const auto material = buildMaterial(inItsAxes, plane, {});
+      const auto material =
+          scene.inSpace() ? buildSpaceMaterial(inItsAxes, {}) : buildMaterial(inItsAxes, scene.plane, {});
       const auto* own = description->as<OwnLaw>();
       const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
       std::string name = "body " + body.name;
       for (const RegionDescription& region : body.regions)
         if (region.material && &*region.material == description)
           name += " region " + std::to_string(region.label);
-      std::printf("%s: %s, plane %s, stresses up to %s %s\n", printable(name).c_str(),
-                  material->laws().front().text().c_str(), word(plane).c_str(), digits(stress, 3).c_str(),
+      const std::string where = scene.inSpace() ? "in space" : "plane " + word(scene.plane);
+      std::printf("%s: %s, %s, stresses up to %s %s\n", printable(name).c_str(),
+                  material->laws().front().text().c_str(), where.c_str(), digits(stress, 3).c_str(),
                   scene.units.stress.c_str());
       if (!description->flows())
         std::puts("  elastic");

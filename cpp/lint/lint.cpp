@@ -228,9 +228,8 @@ Faults lintResolved(const ResolvedScene& resolved) {
 }
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
-  if (scene.inSpace()) return;
-  lintData(scene, model, faults);
-  for (size_t b = 0; b < model.bodies.size(); ++b)
+  if (!scene.inSpace()) lintData(scene, model, faults);
+  for (size_t b = 0; b < model.bodies.size() && !scene.inSpace(); ++b)
     if (const auto centre = freeRotation(model, static_cast<int>(b)))
       faults.add("free-rotation", scene.bodies[b].where,
                  "body " + scene.bodies[b].name + " may turn about " +

@@ -1,11 +1,13 @@
 #include "material/law_check.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <cmath>
 #include <random>
 
 #include "base/dense_templates.h"
 #include "base/worst.h"
+#include "material/stress.h"
 
 namespace mortier {
 namespace {
@@ -64,17 +66,31 @@ class Trial {
     strains_.push_back(e);
   }
 
-  /// Turned axes: q and r turn by twice the angle.
+  /// Turned axes: in the plane q and r turn by twice the angle.
   void takeTurns(const Vector& s, const Vector& e, const Vector& G) {
     for (const double angle : {0.3, 0.9, 1.4}) {
       const auto turned = [&](Vector x) {
-        x.segment<2>(1) = Eigen::Rotation2Dd(2 * angle) * Eigen::Vector2d(x.segment<2>(1));
+        if (n_ >= 6)
+          x.head<6>() = turnedInSpace(x.head<6>(), angle);
+        else
+          x.segment<2>(1) = Eigen::Rotation2Dd(2 * angle) * Eigen::Vector2d(x.segment<2>(1));
         return x;
       };
       const Vector other = rate(turned(s), turned(e));
       const double size = std::max(G.norm(), other.norm());
       if (size > 0) result_.turning = worse(result_.turning, (other - turned(G)).norm() / size);
     }
+  }
+
+  static SpaceStress turnedInSpace(const SpaceStress& x, double angle) {
+    const SpaceStress s = toSpaceCartesian(x);
+    Eigen::Matrix3d tensor;
+    tensor << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+    const Eigen::Matrix3d Q = (Eigen::AngleAxisd(angle, SpacePoint::UnitZ()) *
+                               Eigen::AngleAxisd(1 - angle, SpacePoint(1, 2, 0).normalized()))
+                                  .toRotationMatrix();
+    const Eigen::Matrix3d t = Q * tensor * Q.transpose();
+    return fromSpaceCartesian(SpaceStress{t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(0, 2), t(1, 2)});
   }
 
   [[nodiscard]] bool usable(const Vector& G) const { return std::isfinite((rootE_ * G).squaredNorm()); }
@@ -149,7 +165,7 @@ class Trial {
       const Vector end = solve({weight, stress0, at, false, &strain0}, s, law);
       double size = 0;
       double off = 0;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < (n_ >= 6 ? 6 : 3); ++k) {
         const Vector d = part * strain.norm() * Vector::Unit(n_, k);
         Linearisation other = material_.room(1);
         const Matrix above = strain + d;

@@ -19,8 +19,8 @@ Eigen::Matrix<double, n, n> elasticityTensor(const Elasticity& elasticity) {
   const double shear = elasticity.young / (1 + elasticity.poisson);
   const double bulk = elasticity.young / (1 - 2 * elasticity.poisson);
   Eigen::Matrix<double, n, 1> volume = Eigen::Matrix<double, n, 1>::Zero();
-  volume[0] = rootTwoThirds;
-  volume[n - 1] = overRoot3;
+  volume[0] = n == 6 ? 0 : rootTwoThirds;
+  volume[n - 1] = n == 6 ? 1 : overRoot3;
   return shear * Tensor::Identity() + (bulk - shear) * volume * volume.transpose();
 }
 
@@ -109,7 +109,10 @@ class OwnMaterial final : public Material {
   }
 
  private:
-  /// Points that are evaluated together, on p, q, r, s33.
+  static constexpr int tensorRows = tensorSize<n>;
+  using Slopes = Eigen::Matrix<double, tensorRows, tensorRows>;
+
+  /// Points that are evaluated together, on p, q, r, s33 or the basis of space.
   struct Points {
     explicit Points(Matrix s) : stress(std::move(s)) {}
     Matrix stress;
@@ -133,11 +136,11 @@ class OwnMaterial final : public Material {
 
   void evaluate(Points& at, Matrix* slopes) const {
     const Eigen::Index points = at.stress.cols();
-    Matrix strain = Matrix::Zero(4, points);
+    Matrix strain = Matrix::Zero(tensorRows, points);
     if (needsTotalStrain() && at.total.size() > 0) strain = componentsBy<n>() * at.total;
     if (n == 3) strain.row(3).setConstant(std::numeric_limits<double>::quiet_NaN());
-    Matrix rate(4, points);
-    if (slopes != nullptr) slopes->resize(law_->slopeRows(), points);
+    Matrix rate(tensorRows, points);
+    if (slopes != nullptr) slopes->resize(law_->slopeRows(tensorRows), points);
     const Matrix stress = componentsBy<n>() * at.stress;
     law_->evaluate(stress, strain, rate, slopes);
     if (slopes != nullptr) law_->takeSlopesBeside(stress, strain, E_.norm(), *slopes);
@@ -145,8 +148,8 @@ class OwnMaterial final : public Material {
     at.rate = byComponents<n>() * rate;
   }
 
-  /// Derivatives by components as those by p, q, r, s33.
-  static Mat turned(Eigen::Matrix4d slopes) {
+  /// Derivatives by components as those by the basis.
+  static Mat turned(Slopes slopes) {
     if constexpr (n == 3) {
       slopes.row(3).setZero();
       slopes.col(3).setZero();
@@ -193,14 +196,13 @@ class OwnMaterial final : public Material {
       const Vec flow = problem.weight * at.rate.col(column);
       const Vec r = problem.rhs.col(which[k]) - elastic - flow;
       if (!r.allFinite()) continue;
-      const auto slopesAt = [&](int row) {
-        return turned(Eigen::Map<const Eigen::Matrix4d>(&slopes(row, column)));
-      };
+      const auto slopesAt = [&](int row) { return turned(Eigen::Map<const Slopes>(&slopes(row, column))); };
       const Mat inverse =
           Mat(problem.compliances * C_ + problem.weight * slopesAt(0)).partialPivLu().inverse();
       Solved solved{norm(r), norm(elastic) + norm(flow) + norm(problem.rhs.col(which[k])), inverse * r,
                     inverse};
-      if (needsTotalStrain()) solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(16));
+      if (needsTotalStrain())
+        solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(tensorRows * tensorRows));
       // A rate beyond the square root of the largest number has no norm: such a stress is no iterate.
       if (std::isfinite(solved.size) && solved.direction.allFinite() && solved.moduli.allFinite())
         result[k] = solved;
@@ -298,7 +300,8 @@ class OwnMaterial final : public Material {
   }
 
   static void store(const Mat& H, int point, Linearisation& result) {
-    result.moduli.col(point) = H.template topLeftCorner<3, 3>().reshaped();
+    constexpr int block = n == 6 ? 6 : 3;
+    result.moduli.col(point) = H.template topLeftCorner<block, block>().reshaped();
     if constexpr (n == 4) {
       result.beyond.col(point).template head<4>() = H.row(3).transpose();
       result.beyond.col(point).template tail<3>() = H.col(3).template head<3>();
@@ -312,33 +315,37 @@ class OwnMaterial final : public Material {
   double poisson_;
 };
 
-/// \throws InputError where a component of the rate is not a number without stress and strain.
-void requireRateAtRest(const OwnLaw& law, Plane plane) {
-  constexpr const char* names[] = {"11", "22", "12", "33"};
-  Matrix strain = Matrix::Zero(4, 1);
-  if (plane == Plane::stress) strain(3, 0) = std::numeric_limits<double>::quiet_NaN();
-  Matrix rate = Matrix::Zero(4, 1);
-  law.law->evaluate(Matrix::Zero(4, 1), strain, rate, nullptr);
-  for (int k = 0; k < (plane == Plane::stress ? 3 : 4); ++k)
+template <int n>
+std::shared_ptr<const Material> materialOf(const Elasticity& elasticity, const OwnLaw& law, Plane plane) {
+  constexpr int rows = tensorSize<n>;
+  constexpr const char* names[] = {"11", "22", "12", "33", "13", "23"};
+  requireValid(elasticity);
+  if (n == 4 && !law.inPlaneStrain)
+    throw InputError(law.where + ", expected rate33 beside the others " +
+                     (plane == Plane::strain ? "in plane strain" : "around an axis"));
+  if (!law.law->takes(rows))
+    throw InputError(law.where +
+                     ", expected a law of six components in space, this one has the plane's four");
+  Matrix strain = Matrix::Zero(rows, 1);
+  if (n == 3) strain(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  Matrix rate = Matrix::Zero(rows, 1);
+  law.law->evaluate(Matrix::Zero(rows, 1), strain, rate, nullptr);
+  for (int k = 0; k < (n == 3 ? 3 : rows); ++k)
     if (!std::isfinite(rate(k, 0)))
       throw InputError(law.where + ", expected a rate that is a number without stress and strain, is " +
                        (std::isnan(rate(k, 0)) ? "not one" : "infinite") + " in component " + names[k] +
-                       (plane == Plane::stress ? " (e33 is not known in plane stress)" : ""));
+                       (n == 3 ? " (e33 is not known in plane stress)" : ""));
+  LawDescription description = describe(law.name, elasticity);
+  for (const auto& [name, value] : law.parameters) description.parameters.push_back({name, value, ""});
+  return std::make_shared<OwnMaterial<n>>(law, elasticity, std::move(description));
 }
 
 }  // namespace
 
 std::shared_ptr<const Material> ownMaterial(const Elasticity& elasticity, const OwnLaw& law, Plane plane) {
-  requireValid(elasticity);
-  if (plane != Plane::stress && !law.inPlaneStrain)
-    throw InputError(law.where + ", expected rate33 beside the others " +
-                     (plane == Plane::strain ? "in plane strain" : "around an axis"));
-  requireRateAtRest(law, plane);
-  LawDescription description = describe(law.name, elasticity);
-  for (const auto& [name, value] : law.parameters) description.parameters.push_back({name, value, ""});
-  if (plane == Plane::stress)
-    return std::make_shared<OwnMaterial<3>>(law, elasticity, std::move(description));
-  return std::make_shared<OwnMaterial<4>>(law, elasticity, std::move(description));
+  if (plane == Plane::stress) return materialOf<3>(elasticity, law, plane);
+  if (plane == Plane::none) return materialOf<6>(elasticity, law, plane);
+  return materialOf<4>(elasticity, law, plane);
 }
 
 }  // namespace mortier

@@ -16,7 +16,7 @@ class RateLaw;
 
 /// The expressions of a law, as a scene has them.
 struct RateTexts {
-  std::vector<std::string> rates;            ///< of 11, 22, 12 and, where it is given, 33
+  std::vector<std::string> rates;            ///< of 11, 22, 12 and, where they are given, 33, 13, 23
   std::map<std::string, std::string> named;  ///< parameters: numbers and expressions that may hold each other
 };
 
@@ -31,7 +31,8 @@ struct OwnLaw {
   std::optional<RateTexts> texts = {};       ///< none of a registered law
 };
 
-/// \throws InputError where an elastic constant is wrong, or the rate without stress and strain not a number.
+/// \throws InputError where an elastic constant is wrong, the law is none of the plane or of space
+/// (Plane::none), or its rate without stress and strain is not a number.
 std::shared_ptr<const Material> ownMaterial(const Elasticity& elasticity, const OwnLaw& law, Plane plane);
 
 }  // namespace mortier

@@ -18,6 +18,7 @@
 #include <memory>
 #include <type_traits>
 #include <unsupported/Eigen/AutoDiff>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -36,20 +37,31 @@ struct Components {
   Number c11, c22, c12, c33;
 };
 
+/// The same in space. A law whose rateOf takes these knows bodies in space; a template takes both.
+template <class Number>
+struct SpaceComponents {
+  Number c11, c22, c12, c33, c13, c23;
+};
+
 class RateLaw {
  public:
   virtual ~RateLaw() = default;
   [[nodiscard]] virtual bool needsTotalStrain() const = 0;
-  /// Columns are points; `stress` [Pa], `strain` [-], `rate` [1/s] have 4 rows, as Components. `slopes`, if
-  /// any, has the 4 x 4 derivatives by the stress [1/(Pa s)], column major, and, where G depends on the
-  /// strain, those by it [1/s] after them; no numbers where there are none. Several threads may call it.
+  /// Whether it is the law of tensors of so many components: 4, or 6 in space.
+  [[nodiscard]] virtual bool takes(int components) const { return components == 4; }
+  /// Columns are points; `stress` [Pa], `strain` [-], `rate` [1/s] have n = 4 rows, as Components, or 6, as
+  /// SpaceComponents. `slopes`, if any, has the n x n derivatives by the stress [1/(Pa s)], column major,
+  /// and, where G depends on the strain, those by it [1/s] after them; no numbers where there are none.
+  /// Several threads may call it.
   virtual void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const = 0;
   /// A rate may have no slopes where it is a number: sqrt(s11^2 + s22^2) has none without stress, where a law
   /// has no flow and every run begins. There they become those beside the point.
   /// \param modulus  what a strain of 1 is as a stress [Pa]
   void takeSlopesBeside(const Matrix& stress, const Matrix& strain, double modulus, Matrix& slopes) const;
   /// Rows of `slopes`.
-  [[nodiscard]] int slopeRows() const { return needsTotalStrain() ? 32 : 16; }
+  [[nodiscard]] Eigen::Index slopeRows(Eigen::Index components) const {
+    return (needsTotalStrain() ? 2 : 1) * components * components;
+  }
 };
 
 /// How many points are evaluated together.
@@ -57,17 +69,17 @@ constexpr int pointsAtOnce = 32;
 
 /// Runs `rateOf(const Number* in, Number* out, int points)` on blocks of points, with double or, for slopes,
 /// Differentiated: in[k pointsAtOnce + i] is component k of stress and strain of a point, out of the rate.
-template <bool needsTotalStrain, class RateOf>
+template <int n, bool needsTotalStrain, class RateOf>
 void evaluateBlocks(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
                     Matrix* slopes) {
-  constexpr int directions = needsTotalStrain ? 8 : 4;
+  constexpr int directions = needsTotalStrain ? 2 * n : n;
   const auto run = [&]<class Number>(std::vector<Number> in) {
-    std::vector<Number> out(4 * pointsAtOnce, Number(0));
+    std::vector<Number> out(n * pointsAtOnce, Number(0));
     for (Eigen::Index begin = 0; begin < stress.cols(); begin += pointsAtOnce) {
       const int points = static_cast<int>(std::min<Eigen::Index>(pointsAtOnce, stress.cols() - begin));
       for (int i = 0; i < points; ++i)
-        for (int k = 0; k < 8; ++k) {
-          const double value = k < 4 ? stress(k, begin + i) : strain(k - 4, begin + i);
+        for (int k = 0; k < 2 * n; ++k) {
+          const double value = k < n ? stress(k, begin + i) : strain(k - n, begin + i);
           if constexpr (std::is_same_v<Number, double>)
             in[k * pointsAtOnce + i] = value;
           else
@@ -75,21 +87,21 @@ void evaluateBlocks(const RateOf& rateOf, const Matrix& stress, const Matrix& st
         }
       rateOf(in.data(), out.data(), points);
       for (int i = 0; i < points; ++i)
-        for (int c = 0; c < 4; ++c) {
+        for (int c = 0; c < n; ++c) {
           const Number& result = out[c * pointsAtOnce + i];
           if constexpr (std::is_same_v<Number, double>) {
             rate(c, begin + i) = result;
           } else {
             rate(c, begin + i) = result.value();
-            for (int k = 0; k < directions; ++k) (*slopes)(4 * k + c, begin + i) = result.derivatives()[k];
+            for (int k = 0; k < directions; ++k) (*slopes)(n * k + c, begin + i) = result.derivatives()[k];
           }
         }
     }
   };
   if (slopes == nullptr)
-    run(std::vector<double>(8 * pointsAtOnce));
+    run(std::vector<double>(2 * n * pointsAtOnce));
   else
-    run(std::vector<Differentiated<directions>>(8 * pointsAtOnce, 0.0));
+    run(std::vector<Differentiated<directions>>(2 * n * pointsAtOnce, 0.0));
 }
 
 /// The rate law of a type as above.
@@ -98,24 +110,47 @@ class TypedRateLaw final : public RateLaw {
  public:
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
   [[nodiscard]] bool needsTotalStrain() const override { return Law::needsTotalStrain; }
+  [[nodiscard]] bool takes(int components) const override { return components == 4 || inSpace; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
-    evaluateBlocks<Law::needsTotalStrain>(
-        [this]<class Number>(const Number* in, Number* out, int points) {
-          const auto at = [&](int k, int i) { return in[k * pointsAtOnce + i]; };
-          for (int i = 0; i < points; ++i) {
-            const Components<Number> all =
-                law_.rateOf(Components<Number>{at(0, i), at(1, i), at(2, i), at(3, i)},
-                            Components<Number>{at(4, i), at(5, i), at(6, i), at(7, i)});
-            out[i] = all.c11;
-            out[pointsAtOnce + i] = all.c22;
-            out[2 * pointsAtOnce + i] = all.c12;
-            out[3 * pointsAtOnce + i] = all.c33;
-          }
-        },
-        stress, strain, rate, slopes);
+    if (stress.rows() == 4)
+      evaluateBlocks<4, Law::needsTotalStrain>(
+          [this]<class Number>(const Number* in, Number* out, int points) {
+            eachPoint<Components<Number>>(in, out, points);
+          },
+          stress, strain, rate, slopes);
+    else if constexpr (inSpace)
+      evaluateBlocks<6, Law::needsTotalStrain>(
+          [this]<class Number>(const Number* in, Number* out, int points) {
+            eachPoint<SpaceComponents<Number>>(in, out, points);
+          },
+          stress, strain, rate, slopes);
   }
 
  private:
+  static constexpr bool inSpace = requires(const Law& law, const SpaceComponents<double>& tensor) {
+    law.rateOf(tensor, tensor);
+  };
+
+  template <class Tensor, class Number>
+  void eachPoint(const Number* in, Number* out, int points) const {
+    constexpr int n = sizeof(Tensor) / sizeof(Number);
+    const auto tensorAt = [&]<size_t... k>(const Number* first, std::index_sequence<k...>) {
+      return Tensor{first[k * pointsAtOnce]...};
+    };
+    for (int i = 0; i < points; ++i) {
+      const Tensor all = law_.rateOf(tensorAt(in + i, std::make_index_sequence<n>()),
+                                     tensorAt(in + n * pointsAtOnce + i, std::make_index_sequence<n>()));
+      out[i] = all.c11;
+      out[pointsAtOnce + i] = all.c22;
+      out[2 * pointsAtOnce + i] = all.c12;
+      out[3 * pointsAtOnce + i] = all.c33;
+      if constexpr (n == 6) {
+        out[4 * pointsAtOnce + i] = all.c13;
+        out[5 * pointsAtOnce + i] = all.c23;
+      }
+    }
+  }
+
   Law law_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace mortier {
 
-TriangleMesh meshAboutAxis(TriangleMesh mesh) {
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
   constexpr double rounding = 1e-12;  // of the largest radius
   double largest = 0;
   for (const Point& vertex : mesh.vertices) largest = std::max(largest, std::abs(vertex.x()));
@@ -17,8 +17,8 @@ TriangleMesh meshAboutAxis(TriangleMesh mesh) {
     if (std::abs(radius) <= rounding * largest) radius = 0;
     if (radius >= 0) continue;
     std::ostringstream message;
-    message << mesh.name << ": vertex " << v + 1 << " at x = " << radius
-            << ", expected x >= 0 beside plane = \"axisymmetric\": x is the distance from the axis";
+    message << mesh.name << ": vertex " << v + 1 << " at x = " << radius << ", expected x >= 0 beside "
+            << beside << ": x is the distance from the axis";
     throw InputError(message.str());
   }
   for (Point& middle : mesh.edgeMiddles)

@@ -16,7 +16,7 @@ inline double circumference(const Point& place) {
 }
 
 /// Vertices that only rounding keeps from the axis are put on it.
-/// \throws InputError with the first vertex on the other side of it.
-TriangleMesh meshAboutAxis(TriangleMesh mesh);
+/// \throws InputError with the first vertex on the other side of it. \param beside  the key that asks for it
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside = "plane = \"axisymmetric\"");
 
 }  // namespace mortier

@@ -22,6 +22,7 @@ TriangleMesh readMesh(const MeshSource& source) {
 }
 
 TetrahedronMesh readSpaceMesh(const MeshSource& source) {
+  if (source.sweep) return sweptMesh(readMesh(source), *source.sweep);
   if (source.inSpace) return shapeMesh(*source.inSpace);
   if (isGmshFile(source.path)) return readSpaceGmsh(source);
   requireNoGeometry(source);

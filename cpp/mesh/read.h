@@ -7,6 +7,7 @@
 
 #include "mesh/shape.h"
 #include "mesh/space_shapes.h"
+#include "mesh/swept_mesh.h"
 
 namespace mortier {
 
@@ -15,6 +16,7 @@ struct MeshSource {
   std::string path;                        ///< as the program opens it; of a shape, its word
   std::optional<MeshShape> shape = {};     ///< in place of a file
   std::optional<SpaceShape> inSpace = {};  ///< the same in space
+  std::optional<Sweep> sweep = {};         ///< of a plane mesh to one in space
   std::vector<std::string> regions = {};   ///< names or numbers of those that are the body; none: all
   double size = 0;  ///< longest edge where Gmsh meshes a geometry [m]; 0: the geometry's own
   std::map<std::string, double> parameters = {};  ///< of a .geo, which names them in DefineConstant

@@ -28,7 +28,7 @@ MeshedScene meshedScene(const SceneDescription& scene, const Model& model) {
 }
 
 double SampledDatum::at(const SpacePoint& point, double t) const {
-  return value->inSpace ? value->inSpace(point, t) : value->value(point.x(), point.y(), t);
+  return value->at(point, t);
 }
 
 double SampledDatum::largest(double t) const {

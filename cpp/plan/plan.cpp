@@ -101,8 +101,8 @@ class Planner {
       else if (material->flows())
         always = named.text();
     }
-    const std::string law = scene_.inSpace()                   ? "its tangent is symmetric in space"
-                            : !symmetric && projection.empty() ? "its tangent is unsymmetric"
+    const std::string law = !symmetric && projection.empty() ? "its tangent is unsymmetric"
+                            : scene_.inSpace()               ? "its tangent is symmetric in space"
                             : scene_.plane != Plane::stress
                                 ? "its tangent is symmetric " + (scene_.plane == Plane::strain
                                                                      ? std::string("in plane strain")

@@ -18,7 +18,6 @@ bool mayFlow(const BodyDescription& body) {
 }
 
 bool stepsMatter(const SceneDescription& scene) {
-  if (scene.inSpace()) return false;
   return hasFriction(scene) || std::any_of(scene.bodies.begin(), scene.bodies.end(), mayFlow);
 }
 

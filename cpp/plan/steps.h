@@ -11,7 +11,7 @@ bool hasFriction(const SceneDescription& scene);
 /// Whether a material of a body can flow.
 bool mayFlow(const BodyDescription& body);
 
-/// Whether a material of the scene can flow, or a contact has friction: not in space, where steps are equal.
+/// Whether a material of the scene can flow, or a contact has friction.
 bool stepsMatter(const SceneDescription& scene);
 
 /// Tolerance of the steps of a run, of its last round where it has several; 0: equal steps.

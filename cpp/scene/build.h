@@ -32,6 +32,8 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
 /// \param places  the points of the material, which an angle of its axes may depend on.
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<Point>& places);
+std::shared_ptr<const Material> buildSpaceMaterial(const MaterialDescription& description,
+                                                   const std::vector<SpacePoint>& places);
 /// By what angle the axes of a material are turned at each of the places [rad]; one where it is everywhere
 /// the same. \throws InputError
 template <class Place>

@@ -60,8 +60,10 @@ void requireOneMotion(const BodyDescription& description, const Body& body,
   }
 }
 
-std::shared_ptr<const Material> materialInSpace(const MaterialDescription& description,
-                                                const std::vector<SpacePoint>& places) {
+}  // namespace
+
+std::shared_ptr<const Material> buildSpaceMaterial(const MaterialDescription& description,
+                                                   const std::vector<SpacePoint>& places) {
   if (description.anisotropy)
     return buildAnisotropic(description, Plane::none, anglesOf(description, places));
   const Elasticity& elasticity = description.elasticity;
@@ -72,10 +74,9 @@ std::shared_ptr<const Material> materialInSpace(const MaterialDescription& descr
     return spaceViscoelasticMaterial(elasticity, *viscoelasticity);
   if (const auto* overstress = description.as<Overstress>())
     return spaceOverstressMaterial(elasticity, *overstress);
+  if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, Plane::none);
   return spaceElasticMaterial(elasticity);
 }
-
-}  // namespace
 
 Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, const SceneDescription& scene,
                     const std::vector<double>& times) {
@@ -104,7 +105,7 @@ Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, co
   const std::vector<SpacePoint> places = placesOfPoints(mesh, scene.degree);
   const auto material =
       materialOfRegions(description, mesh.regions, places.size(),
-                        [&](const MaterialDescription& each) { return materialInSpace(each, places); });
+                        [&](const MaterialDescription& each) { return buildSpaceMaterial(each, places); });
   if (description.temperature) {
     conditions.temperature = finiteInSpace(description.temperature->value);
     conditions.expansion = expansionOf(description, mesh, Plane::none, places, times);

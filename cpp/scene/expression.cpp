@@ -178,7 +178,7 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
     Datum datum =
         Function([value = std::move(compiled)](double x, double y, double t) { return value(x, y, t); });
     datum.inTime = inTime;
-    if (!ofSpace) describe(text, datum);
+    describe(text, datum);
     return {text, std::move(where), false, std::move(datum), {}, inTime, std::move(ofSpace)};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
@@ -191,6 +191,10 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
     }
     reject(where, reason, inSpace);
   }
+}
+
+double Expression::at(const SpacePoint& x, double t) const {
+  return inSpace ? inSpace(x, t) : value(x.x(), x.y(), t);
 }
 
 Datum finiteValue(const Expression& expression) {
@@ -210,6 +214,13 @@ SpaceDatum finiteInSpace(const Expression& expression) {
     };
   return [value = std::move(value), where = expression.where](const SpacePoint& x, double t) {
     return finite(value(x, t), where, x.x(), x.y(), t, x.z());
+  };
+}
+
+SpaceDatum finiteAt(const Expression& expression, bool inSpace) {
+  if (inSpace) return finiteInSpace(expression);
+  return [value = Function(finiteValue(expression))](const SpacePoint& x, double t) {
+    return value(x.x(), x.y(), t);
   };
 }
 

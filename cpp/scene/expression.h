@@ -17,6 +17,8 @@ struct Expression {
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
   bool inTime = false;              ///< depends on t
   SpaceDatum inSpace = {};          ///< its value where it depends on z; empty elsewhere
+
+  [[nodiscard]] double at(const SpacePoint& x, double t) const;
 };
 
 Expression constantExpression(double value, std::string where);

@@ -10,5 +10,7 @@ namespace mortier {
 Datum finiteValue(const Expression& expression);
 /// The same in space.
 SpaceDatum finiteInSpace(const Expression& expression);
+/// One of them.
+SpaceDatum finiteAt(const Expression& expression, bool inSpace);
 
 }  // namespace mortier

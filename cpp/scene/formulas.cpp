@@ -155,8 +155,12 @@ void Formulas::evaluate(const Number* values, Number* results, int points, std::
 template void Formulas::evaluate(const double*, double*, int, std::vector<double>&) const;
 template void Formulas::evaluate(const Differentiated<4>*, Differentiated<4>*, int,
                                  std::vector<Differentiated<4>>&) const;
+template void Formulas::evaluate(const Differentiated<6>*, Differentiated<6>*, int,
+                                 std::vector<Differentiated<6>>&) const;
 template void Formulas::evaluate(const Differentiated<8>*, Differentiated<8>*, int,
                                  std::vector<Differentiated<8>>&) const;
+template void Formulas::evaluate(const Differentiated<12>*, Differentiated<12>*, int,
+                                 std::vector<Differentiated<12>>&) const;
 
 int Formulas::append(const Operation& operation) {
   Operation own = operation;

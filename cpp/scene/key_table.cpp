@@ -58,6 +58,11 @@ radius | m | 1 | > 0; with shape = "halfdisc", "quarterdisc", "cylinder", "ball"
 height | m | 1 | > 0; with shape = "cylinder"
 keep | | | with shape = "cylinder", "ball"
 core | m | 0.1 | > 0; with shape = "halfdisc", "quarterdisc"
+extrude | m | | > 0 | with `dimension = 3`: a plane shape or a plane file becomes a body of this length
+  along z ([below](#bodies-in-space))
+revolve | rad | | a number or an expression such as pi/2, at most 2 pi | the same, turned about the axis
+  x = 0 from the x axis towards the z axis
+layers | | | integer >= 1 | of tetrahedra along the length or the angle
 [body.force]
 x, y, z | N/m^3 | 0 | datum | body force; `z` with `dimension = 3`
 [body.temperature]
@@ -94,6 +99,7 @@ rate11, rate22, rate12 | 1/s | | expressions; with law = "expression" | the visc
   ([below](#user-defined-laws))
 rate33 | 1/s | | expression, but for `plane = "stress"`; with law = "expression" | the same across the plane,
   or around the axis
+rate13, rate23 | 1/s | | expressions; with law = "expression" | the same with `dimension = 3`
 parameters | | none | table of numbers and expressions; with law = "expression" | names that the rates may
   hold; with a registered law numbers only
 isotropic | | false | true, false; with law = "expression" | states that the user-defined law, or the

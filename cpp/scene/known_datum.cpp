@@ -189,7 +189,7 @@ Taylor apply(const Operation& operation, const Taylor& a, const Taylor& b, const
 }
 
 /// The degree of a polynomial in the variables of these degrees.
-int degreeOf(const Operation& operation, const std::array<int, 3>& variables, int a, int b, int c) {
+int degreeOf(const Operation& operation, const std::array<int, 4>& variables, int a, int b, int c) {
   constexpr int any = Datum::anyDegree;
   const int most = std::max({a, b, c});
   switch (operation.op) {
@@ -213,14 +213,14 @@ int degreeOf(const Operation& operation, const std::array<int, 3>& variables, in
 }  // namespace
 
 void describe(const std::string& text, Datum& datum) {
-  Formulas formulas({"x", "y", "t"}, {});
+  Formulas formulas({"x", "y", "t", "z"}, {});
   try {
     formulas.add({text, ""});
   } catch (const InputError&) {
     return;  // words that formulas do not have
   }
   const std::vector<Operation>& operations = formulas.operations();
-  const auto degreeIn = [&](const std::array<int, 3>& variables) {
+  const auto degreeIn = [&](const std::array<int, 4>& variables) {
     std::vector<int> degrees;
     for (const Operation& each : operations) {
       const bool variable = each.op == Op::variable;
@@ -229,12 +229,12 @@ void describe(const std::string& text, Datum& datum) {
     }
     return degrees[formulas.result(0)];
   };
-  datum.degree = degreeIn({1, 1, 0});
-  datum.degreeInTime = degreeIn({0, 0, 1});
-  const auto enclosed = [operations, result = formulas.result(0),
-                         work = std::vector<Taylor>(operations.size())](
-                            const Taylor& x, const Taylor& y, const Taylor& t) mutable -> const Taylor& {
-    const std::array<const Taylor*, 3> variables{&x, &y, &t};
+  datum.degree = degreeIn({1, 1, 0, 1});
+  datum.degreeInTime = degreeIn({0, 0, 1, 0});
+  const auto enclosed =
+      [operations, result = formulas.result(0), work = std::vector<Taylor>(operations.size())](
+          const Taylor& x, const Taylor& y, const Taylor& t, const Taylor& z) mutable -> const Taylor& {
+    const std::array<const Taylor*, 4> variables{&x, &y, &t, &z};
     for (size_t i = 0; i < operations.size(); ++i) {
       const Operation& each = operations[i];
       const auto of = [&](int k) -> const Taylor& { return work[std::max(k, 0)]; };
@@ -244,9 +244,15 @@ void describe(const std::string& text, Datum& datum) {
     return work[result];
   };
   datum.enclosure = [values = enclosed](const Box& box) mutable {
-    return values(Taylor::constant(box.x), Taylor::constant(box.y), Taylor::constant(box.t)).c[0];
+    return values(Taylor::constant(box.x), Taylor::constant(box.y), Taylor::constant(box.t),
+                  Taylor::constant(box.z))
+        .c[0];
   };
-  datum.along = [enclosed] { return enclosed; };
+  datum.along = [enclosed] {
+    return [values = enclosed](const Taylor& x, const Taylor& y, const Taylor& t) mutable {
+      return values(x, y, t, Taylor());
+    };
+  };
 }
 
 }  // namespace mortier

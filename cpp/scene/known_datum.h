@@ -1,5 +1,5 @@
-// What the text of an expression in x, y and t says about it without trying it at points: its degree in x
-// and y, and enclosures of it and its derivatives (base/taylor.h).
+// What the text of an expression in x, y, t and z says about it without trying it at points: its degree in x,
+// y and z, and enclosures of it and its derivatives (base/taylor.h).
 #pragma once
 
 #include <string>

@@ -48,27 +48,30 @@ bool proportionalToTime(const std::string& text) {
 /// Calls work(expression, places) for every datum of the scene that changes.
 void forEachDatum(const SceneDescription& scene, const Model& model,
                   const std::function<void(const Expression&, const LoadPlaces&)>& work) {
-  const auto call = [&](const Expression& expression, const TriangleMesh& mesh, const int* label) {
+  const auto call = [&](const Expression& expression, const Body& body, const int* label) {
     if (!expression.inTime) return;
-    const LoadPlaces places = loadPlaces(expression.value, mesh, label, scene.time.end);
+    const LoadPlaces places = body.space() != nullptr
+                                  ? loadPlaces(expression, body.space()->mesh(), label, scene.time.end)
+                                  : loadPlaces(expression, body.mesh(), label, scene.time.end);
     if (!places.points.empty()) work(expression, places);
   };
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const TriangleMesh& mesh = model.bodies[b].mesh();
+    const Body& body = model.bodies[b];
     for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      if (!c.point)
-        call(c.value, mesh, &c.label);
+      if (!c.point && !c.pointInSpace)
+        call(c.value, body, &c.label);
       else if (c.value.inTime)
-        work(c.value, loadPlaces(c.value.value, *c.point, scene.time.end));
+        work(c.value,
+             loadPlaces(c.value, c.point ? SpacePoint(c.point->x(), c.point->y(), 0) : *c.pointInSpace,
+                        scene.time.end));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
-      if (force) call(*force, mesh, nullptr);
-    if (const auto& temperature = scene.bodies[b].temperature) call(temperature->value, mesh, nullptr);
+      if (force) call(*force, body, nullptr);
+    if (const auto& temperature = scene.bodies[b].temperature) call(temperature->value, body, nullptr);
   }
   for (const ContactDescription& contact : scene.contacts)
     if (contact.gap)
-      call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar.body)].mesh(),
-           &contact.nonmortar.label);
+      call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar.body)], &contact.nonmortar.label);
 }
 
 std::string text(const char* pattern, double a, double b) {
@@ -99,16 +102,16 @@ Course resolvedBetween(const std::function<double(double)>& datum, const std::ve
   return course;
 }
 
-Course courseAt(const Expression& expression, const Function& value, const Point& p,
-                const std::vector<double>& peaks, double end, int fine = 0) {
-  const auto datum = [value, p](double t) { return value(p[0], p[1], t); };
+Course courseAt(const Expression& expression, const SpaceDatum& value, const SpacePoint& p,
+                const std::vector<double>& peaks, const SceneDescription& scene, int fine = 0) {
+  const double end = scene.time.end;
+  const auto datum = [value, p](double t) { return value(p, t); };
   if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
   Course course = peaks.empty() ? resolve(datum, 0, end, fine) : resolvedBetween(datum, peaks, end, fine);
   if (!course.resolved)
     throw InputError(expression.where +
-                     text(", expected a datum that can be sampled in time: at (%.6g, %.6g) it varies "
-                          "faster",
-                          p[0], p[1]));
+                     text(", expected a datum that can be sampled in time: at (%.6g, %.6g", p[0], p[1]) +
+                     (scene.inSpace() ? text(", %.6g", p[2], 0) : "") + ") it varies faster");
   return course;
 }
 
@@ -121,8 +124,9 @@ LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
   loads.breaks = scene.time.breaks;
   forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
     const auto fine = static_cast<int>(std::min(finest, affordable / places.points.size()));
-    for (const Point& p : places.points) {
-      Course course = courseAt(expression, finiteValue(expression), p, places.times, scene.time.end, fine);
+    const SpaceDatum value = finiteAt(expression, scene.inSpace());
+    for (const SpacePoint& p : places.points) {
+      Course course = courseAt(expression, value, p, places.times, scene, fine);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
       loads.data.push_back(std::move(course));
     }
@@ -140,8 +144,9 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
     if (proportionalToTime(expression.text)) return;
     double most = much;
     std::string warning;
-    for (const Point& p : places.points) {
-      const Course course = courseAt(expression, expression.value, p, places.times, scene.time.end);
+    const auto value = [&](const SpacePoint& p, double t) { return expression.at(p, t); };
+    for (const SpacePoint& p : places.points) {
+      const Course course = courseAt(expression, value, p, places.times, scene);
       // Of many steps most have no sample inside.
       double last = -1;
       for (const double t : course.times) {

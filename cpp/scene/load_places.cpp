@@ -13,17 +13,34 @@ namespace {
 constexpr size_t mostPlaces = 24;
 constexpr size_t mostCandidates = 3000;
 
-/// A part of an edge, or of a rectangle, in a part of the time.
+/// A part of an edge, of a triangle or of a box, in a part of the time.
 struct Cell {
-  Point from, to;
-  bool rectangle = false;
+  std::vector<SpacePoint> corners;  ///< of a box two
+  bool isBox = false;
   Interval time;
   double beyond = 0;
-  [[nodiscard]] Point middle() const { return (from + to) / 2; }
+  [[nodiscard]] SpacePoint middle() const {
+    SpacePoint sum = corners[0];
+    for (size_t i = 1; i < corners.size(); ++i) sum += corners[i];
+    return sum / static_cast<double>(corners.size());
+  }
   [[nodiscard]] Box box() const {
-    const Point low = from.cwiseMin(to);
-    const Point high = from.cwiseMax(to);
-    return {{low.x(), high.x()}, {low.y(), high.y()}, time};
+    SpacePoint low = corners[0];
+    SpacePoint high = corners[0];
+    for (const SpacePoint& corner : corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    return {{low.x(), high.x()}, {low.y(), high.y()}, time, {low.z(), high.z()}};
+  }
+  /// The two corners of the longest side.
+  [[nodiscard]] std::array<size_t, 2> longest() const {
+    std::array<size_t, 2> ends{0, 1};
+    for (size_t i = 0; i < corners.size(); ++i)
+      for (size_t j = i + 1; j < corners.size(); ++j)
+        if ((corners[j] - corners[i]).squaredNorm() > (corners[ends[1]] - corners[ends[0]]).squaredNorm())
+          ends = {i, j};
+    return ends;
   }
   bool operator<(const Cell& other) const { return beyond < other.beyond; }
 };
@@ -31,21 +48,22 @@ struct Cell {
 /// Looks for values beyond those that are known.
 class Search {
  public:
-  Search(const Datum& datum, Interval known, double end) : datum_(datum), known_(known), end_(end) {}
+  Search(const Expression& datum, Interval known, double end) : datum_(datum), known_(known), end_(end) {}
 
   /// Places and times with values that are far beyond.
-  void in(Cell whole, std::vector<Point>& places, std::vector<double>& times) {
+  void in(Cell whole, std::vector<SpacePoint>& places, std::vector<double>& times) {
     constexpr int budget = 1000;
-    const double extent = (whole.to - whole.from).norm();
+    const auto [first, last] = whole.longest();
+    const double extent = (whole.corners[last] - whole.corners[first]).norm();
     whole.beyond = beyond(whole);
     std::priority_queue<Cell> cells;
     cells.push(whole);
     for (int i = 0; i < budget && !cells.empty() && matters(cells.top().beyond); ++i) {
       const Cell cell = cells.top();
       cells.pop();
-      const Point place = cell.middle();
+      const SpacePoint place = cell.middle();
       const double t = (cell.time.least + cell.time.largest) / 2;
-      const double value = datum_(place.x(), place.y(), t);
+      const double value = datum_.at(place, t);
       const double over = std::max(value - known_.largest, known_.least - value);
       if (std::isfinite(over) && matters(over) && over > cell.beyond / 2) {
         places.push_back(place);
@@ -63,13 +81,14 @@ class Search {
     return beyond > part * (known_.largest - known_.least) && beyond > 0;
   }
   [[nodiscard]] double beyond(const Cell& cell) const {
-    const Interval enclosed = datum_.enclosure(cell.box());
+    const Interval enclosed = datum_.value.enclosure(cell.box());
     const double result = std::max(enclosed.largest - known_.largest, known_.least - enclosed.least);
     return std::isfinite(result) ? result : 0;
   }
   /// Along what shows most of what is not beyond; where all directions show the same along the longest.
   [[nodiscard]] std::array<Cell, 2> halves(const Cell& cell, double extent) const {
-    const Point along = (cell.to - cell.from).cwiseAbs() * end_;
+    const auto [i, j] = cell.longest();
+    const SpacePoint along = (cell.corners[j] - cell.corners[i]).cwiseAbs() * end_;
     const double inTime = (cell.time.largest - cell.time.least) * extent;
     std::array<Cell, 2> best;
     double least = INFINITY;
@@ -85,20 +104,22 @@ class Search {
     std::array<Cell, 2> parts{cell, cell};
     parts[0].time.largest = parts[1].time.least = (cell.time.least + cell.time.largest) / 2;
     consider(parts, inTime);
-    if (!cell.rectangle) {
+    const SpacePoint middle = (cell.corners[i] + cell.corners[j]) / 2;
+    if (!cell.isBox) {
       parts = {cell, cell};
-      parts[0].to = parts[1].from = cell.middle();
+      parts[0].corners[j] = parts[1].corners[i] = middle;
       consider(parts, along.norm());
     }
-    for (int c = 0; cell.rectangle && c < 2; ++c) {
+    for (int c = 0; cell.isBox && c < 3; ++c) {
+      if (!(along[c] > 0)) continue;
       parts = {cell, cell};
-      parts[0].to[c] = parts[1].from[c] = cell.middle()[c];
+      parts[0].corners[1][c] = parts[1].corners[0][c] = middle[c];
       consider(parts, along[c]);
     }
     return best;
   }
 
-  const Datum& datum_;
+  const Expression& datum_;
   Interval known_;
   double end_;
 };
@@ -113,33 +134,33 @@ std::vector<double> trialTimes(double end) {
 }
 
 /// Of the candidates those whose courses at some times are independent, the largest first.
-std::vector<Point> independent(const Datum& datum, const std::vector<Point>& candidates,
-                               const std::vector<double>& times) {
+std::vector<SpacePoint> independent(const Expression& datum, const std::vector<SpacePoint>& candidates,
+                                    const std::vector<double>& times) {
   constexpr double same = 1e-9;
   Matrix courses(times.size(), candidates.size());
   for (size_t j = 0; j < candidates.size(); ++j)
     for (size_t i = 0; i < times.size(); ++i) {
-      const double value = datum(candidates[j].x(), candidates[j].y(), times[i]);
+      const double value = datum.at(candidates[j], times[i]);
       courses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = std::isfinite(value) ? value : 0;
     }
   Eigen::ColPivHouseholderQR<Matrix> qr(courses);
   qr.setThreshold(same);
   const Eigen::Index rank = std::clamp<Eigen::Index>(qr.rank(), 1, mostPlaces);
-  std::vector<Point> places;
+  std::vector<SpacePoint> places;
   for (Eigen::Index i = 0; i < rank; ++i) places.push_back(candidates[qr.colsPermutation().indices()[i]]);
   return places;
 }
 
-LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::vector<Cell>& cells,
+LoadPlaces found(const Expression& datum, std::vector<SpacePoint> candidates, const std::vector<Cell>& cells,
                  double end) {
-  const bool bends = datum.inTime && datum.degreeInTime > 1;
+  const bool bends = datum.inTime && datum.value.degreeInTime > 1;
   std::vector<double> times = bends ? trialTimes(end) : std::vector<double>{0, end};
   LoadPlaces result;
-  if (datum.enclosure && datum.inTime) {
+  if (datum.value.enclosure && datum.inTime) {
     Interval known{INFINITY, -INFINITY};
-    for (const Point& p : candidates)
+    for (const SpacePoint& p : candidates)
       for (const double t : times) {
-        const double value = datum(p.x(), p.y(), t);
+        const double value = datum.at(p, t);
         known = {std::min(known.least, value), std::max(known.largest, value)};
       }
     Search search(datum, known, end);
@@ -154,42 +175,88 @@ LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::v
   return result;
 }
 
-}  // namespace
+/// A mesh as lists.
+struct Parts {
+  std::vector<SpacePoint> vertices;
+  std::vector<std::vector<int>> sides;     ///< where the datum acts, if it acts on sides
+  std::vector<std::vector<int>> elements;  ///< otherwise
+};
 
-LoadPlaces loadPlaces(const Datum& datum, const Point& point, double end) {
-  return found(datum, {point}, {{point, point, false, {0, end}}}, end);
+template <class Lists>
+std::vector<std::vector<int>> listsOf(const Lists& all) {
+  std::vector<std::vector<int>> lists;
+  for (const auto& each : all) lists.emplace_back(each.begin(), each.end());
+  return lists;
 }
 
-LoadPlaces loadPlaces(const Datum& datum, const TriangleMesh& mesh, const int* label, double end) {
-  std::vector<Point> candidates;
+/// Of an edge the parts of equal length; of a triangle its corners, the middles of its sides and its own.
+void addPlacesOf(const std::vector<SpacePoint>& corners, int inside, std::vector<SpacePoint>& places) {
+  if (corners.size() == 2) {
+    const SpacePoint along = corners[1] - corners[0];
+    for (int i = 0; i <= inside + 1; ++i) places.emplace_back(corners[0] + along * i / (inside + 1));
+    return;
+  }
+  const SpacePoint middle = (corners[0] + corners[1] + corners[2]) / 3;
+  places.push_back(middle);
+  for (int i = 0; i < 3; ++i) {
+    const SpacePoint& corner = corners[static_cast<size_t>(i)];
+    places.push_back(corner);
+    if (inside > 1) places.emplace_back((corner + corners[static_cast<size_t>((i + 1) % 3)]) / 2);
+    if (inside > 1) places.emplace_back((corner + middle) / 2);
+  }
+}
+
+LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* label, double end) {
+  std::vector<SpacePoint> candidates;
   std::vector<Cell> cells;
   if (label != nullptr) {
-    const auto edges = edgesOn(mesh, *label);
-    const int inside = edges.size() * 8 > mostCandidates ? 1 : 7;
-    for (const auto& [a, b] : edges) {
-      const Point& from = mesh.vertices[a];
-      const Point along = mesh.vertices[b] - from;
-      for (int i = 0; i <= inside + 1; ++i) candidates.emplace_back(from + along * i / (inside + 1));
-      cells.push_back({from, mesh.vertices[b], false, {0, end}});
+    const int inside = parts.sides.size() * 8 > mostCandidates ? 1 : 7;
+    for (const std::vector<int>& side : parts.sides) {
+      std::vector<SpacePoint> corners;
+      for (const int v : side) corners.push_back(parts.vertices[v]);
+      addPlacesOf(corners, inside, candidates);
+      cells.push_back({std::move(corners), false, {0, end}});
     }
-  } else if (!mesh.vertices.empty()) {
-    Point low = mesh.vertices[0];
-    Point high = low;
-    const size_t stride = 1 + 2 * mesh.triangles.size() / mostCandidates;
-    for (const Point& p : mesh.vertices) {
+  } else if (!parts.vertices.empty()) {
+    SpacePoint low = parts.vertices[0];
+    SpacePoint high = low;
+    const size_t stride = 1 + 2 * parts.elements.size() / mostCandidates;
+    for (const SpacePoint& p : parts.vertices) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    for (size_t t = 0; t < mesh.triangles.size(); t += stride) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      candidates.push_back(mesh.vertices[a]);
-      candidates.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+    for (size_t e = 0; e < parts.elements.size(); e += stride) {
+      const std::vector<int>& element = parts.elements[e];
+      SpacePoint sum = SpacePoint::Zero();
+      for (const int v : element) sum += parts.vertices[v];
+      candidates.push_back(parts.vertices[element[0]]);
+      candidates.emplace_back(sum / static_cast<double>(element.size()));
     }
-    cells.push_back({low, high, true, {0, end}});
+    cells.push_back({{low, high}, true, {0, end}});
   }
   if (candidates.empty()) return {};
-  if (datum.degree == 0) return loadPlaces(datum, candidates.front(), end);
+  if (datum.value.degree == 0) return loadPlaces(datum, candidates.front(), end);
   return found(datum, std::move(candidates), cells, end);
+}
+
+}  // namespace
+
+LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double end) {
+  return found(datum, {point}, {{{point, point}, false, {0, end}}}, end);
+}
+
+LoadPlaces loadPlaces(const Expression& datum, const TriangleMesh& mesh, const int* label, double end) {
+  std::vector<SpacePoint> vertices;
+  for (const Point& p : mesh.vertices) vertices.emplace_back(p.x(), p.y(), 0);
+  if (label != nullptr)
+    return placesIn({std::move(vertices), listsOf(edgesOn(mesh, *label)), {}}, datum, label, end);
+  return placesIn({std::move(vertices), {}, listsOf(mesh.triangles)}, datum, label, end);
+}
+
+LoadPlaces loadPlaces(const Expression& datum, const TetrahedronMesh& mesh, const int* label, double end) {
+  if (label != nullptr)
+    return placesIn({mesh.vertices, listsOf(trianglesOn(mesh, *label)), {}}, datum, label, end);
+  return placesIn({mesh.vertices, {}, listsOf(mesh.tetrahedra)}, datum, label, end);
 }
 
 }  // namespace mortier

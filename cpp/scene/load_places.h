@@ -5,19 +5,21 @@
 
 #include <vector>
 
-#include "base/datum.h"
+#include "mesh/tetrahedron_mesh.h"
 #include "mesh/triangle_mesh.h"
+#include "scene/expression.h"
 
 namespace mortier {
 
 struct LoadPlaces {
-  std::vector<Point> points;
-  std::vector<double> times;  ///< of peaks that samples between 0 and the end would miss, ascending
+  std::vector<SpacePoint> points;  ///< z = 0 in the plane
+  std::vector<double> times;       ///< of peaks that samples between 0 and the end would miss, ascending
 };
 
-/// \param label  of the edges where it acts; of all of the mesh where null
-LoadPlaces loadPlaces(const Datum& datum, const TriangleMesh& mesh, const int* label, double end);
+/// \param label  of the edges or triangles where it acts; all of the mesh where null
+LoadPlaces loadPlaces(const Expression& datum, const TriangleMesh& mesh, const int* label, double end);
+LoadPlaces loadPlaces(const Expression& datum, const TetrahedronMesh& mesh, const int* label, double end);
 /// Of one that acts at a point.
-LoadPlaces loadPlaces(const Datum& datum, const Point& point, double end);
+LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double end);
 
 }  // namespace mortier

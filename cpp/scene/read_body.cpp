@@ -130,7 +130,8 @@ TemperatureDescription readTemperature(const TableReader& owner, const std::stri
 
 /// Beside a file there is nothing that says what a mesh is of.
 void requireFileKeys(const TableReader& table) {
-  const Keys known{"file", "region", "size", "parameters"};
+  Keys known{"file", "region", "size", "parameters"};
+  if (table.table().inSpace) known.insert(known.end(), sweepKeys().begin(), sweepKeys().end());
   for (const Node& member : table.table().members)
     if (!isOneOf(member.key, known)) table.reject(member.key, "it beside shape; of a file " + joined(known));
 }
@@ -146,8 +147,10 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
     body.mesh.path = pathOf(node, scenePath);
   } else {
     const TableReader table(node, "body.mesh", "body " + body.name + ": mesh");
-    if (const Node* shape = table.find("shape")) {
-      if (node.inSpace)
+    const Node* shape = table.find("shape");
+    if (shape == nullptr || !isSolidShape(shape->text)) body.mesh.sweep = readSweep(table);
+    if (shape != nullptr) {
+      if (node.inSpace && !body.mesh.sweep)
         body.mesh.inSpace = readSpaceShape(table);
       else
         body.mesh.shape = readShape(table);

@@ -30,7 +30,8 @@ FlowLaw readFlow(const TableReader& table) {
   const Node* named = table.find("law");
   if (named != nullptr && named->isString() && registeredLaw(named->text)) {
     table.requireBeside("law", "expression");
-    table.rejectIfGiven({"rate11", "rate22", "rate12", "rate33"}, "it beside law = \"expression\" only");
+    table.rejectIfGiven({"rate11", "rate22", "rate12", "rate33", "rate13", "rate23"},
+                        "it beside law = \"expression\" only");
     return readRegisteredLaw(table);
   }
   Keys words = keyAt("body.material", "law").words;

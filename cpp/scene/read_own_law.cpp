@@ -9,25 +9,28 @@
 namespace mortier {
 namespace {
 
-constexpr int strainBegins = 4;
-const std::vector<std::string> components{"s11", "s22", "s12", "s33", "e11", "e22", "e12", "e33"};
+/// Of stress and strain, in the plane and in space.
+const std::vector<std::string> planeComponents{"s11", "s22", "s12", "s33", "e11", "e22", "e12", "e33"};
+const std::vector<std::string> spaceComponents{"s11", "s22", "s12", "s33", "s13", "s23",
+                                               "e11", "e22", "e12", "e33", "e13", "e23"};
 
+template <int n>
 class ExpressionLaw final : public RateLaw {
  public:
   explicit ExpressionLaw(Formulas rates) : rates_(std::move(rates)) {
-    for (int k = strainBegins; k < 2 * strainBegins; ++k)
-      needsTotalStrain_ = needsTotalStrain_ || rates_.dependsOn(k);
+    for (int k = n; k < 2 * n; ++k) needsTotalStrain_ = needsTotalStrain_ || rates_.dependsOn(k);
   }
   [[nodiscard]] bool needsTotalStrain() const override { return needsTotalStrain_; }
+  [[nodiscard]] bool takes(int components) const override { return components == n; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
     const auto rateOf = [&]<class Number>(const Number* in, Number* out, int points) {
       thread_local std::vector<Number> work;
       rates_.evaluate(in, out, points, work);
     };
     if (needsTotalStrain_)
-      evaluateBlocks<true>(rateOf, stress, strain, rate, slopes);
+      evaluateBlocks<n, true>(rateOf, stress, strain, rate, slopes);
     else
-      evaluateBlocks<false>(rateOf, stress, strain, rate, slopes);
+      evaluateBlocks<n, false>(rateOf, stress, strain, rate, slopes);
   }
 
  private:
@@ -66,6 +69,9 @@ std::map<std::string, const Node*> parametersOf(const TableReader& table) {
 }  // namespace
 
 OwnLaw readExpressionLaw(const TableReader& table) {
+  const bool space = table.table().inSpace;
+  const std::vector<std::string>& components = space ? spaceComponents : planeComponents;
+  requireOfDimension(table, {"rate13", "rate23"}, {});
   OwnLaw own;
   own.name = "expression";
   own.texts.emplace();
@@ -79,9 +85,10 @@ OwnLaw readExpressionLaw(const TableReader& table) {
     if (node->isNumeric()) own.parameters[name] = node->value;
   }
   Formulas rates(components, named);
-  for (const char* key : {"rate11", "rate22", "rate12", "rate33"}) {
-    own.inPlaneStrain = table.find(key) != nullptr;  // of the last one
-    if (own.inPlaneStrain || std::string(key) != "rate33") {
+  for (const std::string key : {"rate11", "rate22", "rate12", "rate33", "rate13", "rate23"}) {
+    if (!space && key == "rate13") break;
+    if (key == "rate33") own.inPlaneStrain = table.find(key) != nullptr;
+    if (space || own.inPlaneStrain) {
       const Formulas::Text text =
           textOf(table, key, table.require(key, "an expression of the stress, [1/s]"));
       own.texts->rates.push_back(text.text);
@@ -93,7 +100,10 @@ OwnLaw readExpressionLaw(const TableReader& table) {
   // One that is not used is read too: what is wrong in it is wrong.
   Formulas all = rates;
   for (const auto& [name, text] : named) all.add({name, text.where});
-  own.law = std::make_shared<ExpressionLaw>(std::move(rates));
+  if (space)
+    own.law = std::make_shared<ExpressionLaw<6>>(std::move(rates));
+  else
+    own.law = std::make_shared<ExpressionLaw<4>>(std::move(rates));
   own.isotropic = table.boolean("isotropic");
   const Node& first = table.require("rate11", "");
   own.where = table.message(first.where, "law = \"expression\"");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "scene/readers.h"
 
@@ -36,13 +37,49 @@ void requireKeysOf(const TableReader& table, Keys known) {
       table.reject(member.key, "of a mesh of shape " + word + " " + joined({known.begin() + 1, known.end()}));
 }
 
+const Keys solids{"cuboid", "cylinder", "ball"};
+
 }  // namespace
+
+bool isSolidShape(const std::string& word) {
+  return isOneOf(word, solids);
+}
+
+const Keys& sweepKeys() {
+  static const Keys keys{"extrude", "revolve", "layers"};
+  return keys;
+}
+
+std::optional<Sweep> readSweep(const TableReader& table) {
+  requireOfDimension(table, sweepKeys(), {});
+  const bool extrudes = table.has("extrude");
+  if (!extrudes && !table.has("revolve")) {
+    table.rejectIfGiven({"layers"}, "it beside extrude or revolve");
+    return {};
+  }
+  if (extrudes) table.rejectIfGiven({"revolve"}, "extrude or revolve, not both");
+  Sweep sweep;
+  if (extrudes) {
+    sweep.length = table.number("extrude");
+  } else {
+    const std::optional<Expression> angle = table.datum("revolve");
+    sweep.angle = angle->constant ? angle->value(0, 0, 0) : 0;
+    constexpr double rounding = 1e-6;
+    if (!(sweep.angle > 0) || sweep.angle > 2 * std::numbers::pi + rounding)
+      table.reject("revolve", "an angle above 0, at most 2 pi");
+  }
+  sweep.layers = table.integer("layers");
+  constexpr int most = 10000;
+  if (sweep.layers > most) table.reject("layers", "at most " + std::to_string(most));
+  return sweep;
+}
 
 SpaceShape readSpaceShape(const TableReader& table) {
   constexpr double most = 1e4;
   const std::string shape = table.string("shape");
-  if (shape != "cuboid" && shape != "cylinder" && shape != "ball")
-    table.reject("shape", "cuboid, cylinder, ball, or a file, with dimension = 3");
+  if (!isSolidShape(shape))
+    table.reject("shape",
+                 joined(solids) + ", a plane shape beside extrude or revolve, or a file, with dimension = 3");
   requireKeysOf(table, {"shape", "cells"});
   const size_t different = shape == "cuboid" ? 3 : shape == "cylinder" ? 2 : 1;
   const std::string expected = different == 3   ? "N or [NX, NY, NZ], integers >= 1"
@@ -95,7 +132,9 @@ MeshShape readShape(const TableReader& table) {
   enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc, inSpace };
   const auto family = table.choice<Family>("shape");
   if (family >= inSpace) table.reject("shape", "a plane one, or dimension = 3 at the top of the scene");
-  requireKeysOf(table, {"shape", "cells", "cut"});
+  Keys known{"shape", "cells", "cut"};
+  if (table.table().inSpace) known.insert(known.end(), sweepKeys().begin(), sweepKeys().end());
+  requireKeysOf(table, known);
   static_cast<void>(table.require("cells", "N or [N, M], integers >= 1"));
   const Point cells = pairOf(table, "cells", true);
   const auto cells1 = static_cast<int>(cells.x());

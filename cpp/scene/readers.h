@@ -32,6 +32,11 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
 MeshShape readShape(const TableReader& table);
 /// The same in space.
 SpaceShape readSpaceShape(const TableReader& table);
+/// Whether a word of `shape` is one in space.
+bool isSolidShape(const std::string& word);
+/// What makes a body in space of a plane mesh; none where no key asks for it.
+std::optional<Sweep> readSweep(const TableReader& table);
+const Keys& sweepKeys();
 
 /// Its mesh. \param owner  of the key `mesh`
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body);

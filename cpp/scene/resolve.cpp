@@ -71,9 +71,9 @@ void findPlaces(SceneDescription& scene, const std::vector<Mesh>& meshes) {
 }  // namespace
 
 TetrahedronMesh spaceMeshOf(const BodyDescription& body) {
-  if (!body.mesh.inSpace) return readSpaceMesh(body.mesh);
+  if (!body.mesh.inSpace && !body.mesh.shape) return readSpaceMesh(body.mesh);
   try {
-    return shapeMesh(*body.mesh.inSpace);
+    return readSpaceMesh(body.mesh);
   } catch (const InputError& error) {
     throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
   }

@@ -11,15 +11,8 @@ constexpr auto inThePlane = " with dimension = 3: known in the plane only";
   throw InputError(where + ": " + what + ", expected none" + inThePlane);
 }
 
-void requireKnown(const MaterialDescription& material, const std::string& where) {
-  if (material.as<OwnLaw>() != nullptr) refuse(where, "material: a law of its own");
-}
-
 void requireKnown(const BodyDescription& body) {
   const std::string where = body.where + ": body " + body.name;
-  requireKnown(body.material, where);
-  for (const RegionDescription& region : body.regions)
-    if (region.material) requireKnown(*region.material, region.where + ": body " + body.name);
   if (body.volume == Volume::averaged)
     throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
 }
@@ -28,12 +21,14 @@ void requireKnown(const ContactDescription& contact, int degree) {
   const std::string where = contact.where + ": contact";
   if (contact.friction.any()) refuse(where, "friction");
   if (contact.sliding == SlidingKind::finite) refuse(where, "sliding = \"finite\"");
-  if (contact.variant == CouplingKind::coarsened ||
-      (degree == 2 && contact.variant != CouplingKind::weighted))
-    throw InputError(
-        where + ": variant = \"" + word(contact.variant) +
-        "\", expected \"weighted\", or with degree = 1 \"mortar\" or \"interpolation\": in space the "
-        "integral of a quadratic vertex function over a triangle is zero");
+  const bool coarsened = contact.variant == CouplingKind::coarsened;
+  if (!coarsened && (degree == 1 || contact.variant == CouplingKind::weighted)) return;
+  const std::string others = degree == 1 ? "\"weighted\", \"mortar\" or \"interpolation\"" : "\"weighted\"";
+  throw InputError(where + ": variant = \"" + word(contact.variant) + "\", expected " + others +
+                   (coarsened
+                        ? ": vertices left out leave a line of longer edges, but no triangles on a surface"
+                        : " with degree = 2: in space the integral of a quadratic vertex function over a "
+                          "triangle is zero"));
 }
 
 void requireKnown(const QuantityDescription& quantity) {
@@ -62,7 +57,6 @@ void requireKnownInSpace(const TableReader& root, const SceneDescription& scene)
   const Node* solver = root.find("solver");
   if (solver != nullptr && scene.solver.method != Method::newton)
     refuse(solver->where, "solver: method = \"penalty-duality\"");
-  if (scene.time.controlled()) refuse(root.find("time")->where, "time: tolerance");
   for (const BodyDescription& body : scene.bodies) requireKnown(body);
   for (const ContactDescription& contact : scene.contacts) requireKnown(contact, scene.degree);
   for (const QuantityDescription& quantity : scene.quantities) requireKnown(quantity);

@@ -54,15 +54,20 @@ ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t bod
   return norms;
 }
 
-/// Over the area of all bodies, a third of each triangle at each of its vertices.
+/// Over the area or volume of all bodies, an equal part of each element at each of its vertices.
 double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
   const Body& in = model_.bodies[body];
   const size_t points = in.pointsOfTriangle();
-  double sum = 0;
-  for (size_t i = 0; i < in.weights().size(); ++i)
-    for (const int vertex : in.mesh().triangles[i / points])
-      sum += in.weights()[i] / 3 / area_ * displacement.segment<2>(2 * vertex).squaredNorm();
-  return sum;
+  const auto over = [&]<int dimension>(const auto& elements) {
+    double sum = 0;
+    for (size_t i = 0; i < in.weights().size(); ++i)
+      for (const int vertex : elements[i / points])
+        sum += in.weights()[i] / (dimension + 1) / area_ *
+               displacement.segment<dimension>(dimension * vertex).squaredNorm();
+    return sum;
+  };
+  if (in.space() != nullptr) return over.template operator()<3>(in.space()->mesh().tetrahedra);
+  return over.template operator()<2>(in.mesh().triangles);
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const State& state) const {

@@ -17,7 +17,8 @@ def register_law(name: str, rate: Callable[..., ArrayLike],
     eps33, which is not known, NaN). parameters are those of the scene. Where the rate depends on the strain
     of_strain must say so. derivative gives its derivatives [1/(Pa s)], n x 4 x 4, by 11, 22, 12, 33 of the
     stress in the last place, and with of_strain n x 4 x 8, by those of the strain after them; without it
-    differences are taken. Both are called in the threads of a run; what they raise ends it.
+    differences are taken. Of bodies in space there are six components in place of four, 13 and 23 after them.
+    Both are called in the threads of a run; what they raise ends it.
 
     InputError: a name that is not letters, digits, _ and -, or that of a law of mortier's own.
     """

@@ -424,8 +424,8 @@ at = [0, 0, -1]
 uy = 0
 [[body]]
 name = "beside"
-mesh = { shape = "cuboid", lower = [3, 0, 0], upper = [4, 1, 1], cells = 1 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }, { label = "top", tz = "-t" } ]
+mesh = { shape = "rectangle", lower = [3, 0], upper = [4, 1], cells = 1, extrude = 1, layers = 1 }
+boundary = [ { label = "start", ux = 0, uy = 0, uz = 0 }, { label = "end", tz = "-t" } ]
 [body.material]
 elasticity = "orthotropic"
 young1 = 100
@@ -438,6 +438,21 @@ shear12 = 30
 shear13 = 20
 shear23 = 25
 axes = [[0, 1, 0], [0, 0, 1]]
+[[body]]
+name = "turned"
+mesh = { shape = "rectangle", lower = [6, 0], upper = [7, 1], cells = 1, revolve = 0.5, layers = 1 }
+boundary = [ { label = 1, ux = 0, uy = 0, uz = 0 }, { label = 3, ty = "-t" } ]
+[body.material]
+young = 100
+poisson = 0.3
+law = "expression"
+rate11 = "a*(s11 - s22)"
+rate22 = "a*(s22 - s33)"
+rate12 = "a*s12"
+rate33 = "a*(s33 - s11)"
+rate13 = "a*s13"
+rate23 = "2*a*s23"
+parameters = { a = 0.1 }
 [contact]
 sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
 [[quantity]]

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/generate.h"
+#include "mesh/space_shapes.h"
 #include "scene/expression.h"
 #include "scene/load_courses.h"
 #include "unit/scene_folder.h"
@@ -16,19 +17,29 @@ constexpr int top = 3;
 
 LoadPlaces placesOf(const std::string& text, const int* label = &top) {
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
-  return loadPlaces(parseExpression(text, "test").value, mesh, label, end);
+  return loadPlaces(parseExpression(text, "test"), mesh, label, end);
+}
+
+LoadPlaces placesInCube(const std::string& text, const int* label = &top) {
+  const TetrahedronMesh mesh = cuboidMesh({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}});
+  return loadPlaces(parseExpression(text, "test", true), mesh, label, end);
 }
 
 /// The largest value over the places and the times, beside those of a run in 500 equal parts.
-double largest(const std::string& text, const int* label = &top) {
-  const Datum datum = parseExpression(text, "test").value;
-  const LoadPlaces places = placesOf(text, label);
+double largest(const std::string& text, const LoadPlaces& places) {
+  const Expression datum = parseExpression(text, "test", true);
   std::vector<double> times = places.times;
   for (int i = 0; i <= 500; ++i) times.push_back(end * i / 500);
   double most = 0;
-  for (const Point& p : places.points)
-    for (const double t : times) most = std::max(most, datum(p.x(), p.y(), t));
+  for (const SpacePoint& p : places.points)
+    for (const double t : times) most = std::max(most, datum.at(p, t));
   return most;
+}
+double largest(const std::string& text, const int* label = &top) {
+  return largest(text, placesOf(text, label));
+}
+double largestInCube(const std::string& text, const int* label = &top) {
+  return largest(text, placesInCube(text, label));
 }
 
 TEST(LoadPlaces, degreesInTimeAreKnown) {
@@ -45,9 +56,9 @@ TEST(LoadPlaces, degreesInTimeAreKnown) {
 // No peak is looked for in a datum that grows along a straight line everywhere.
 TEST(LoadPlaces, dataThatAreLinearInTimeAreReadAtTheirEnds) {
   int calls = 0;
-  Datum datum = parseExpression("t*sin(20*x)", "test").value;
-  const Function value = datum;
-  static_cast<Function&>(datum) = [&](double x, double y, double t) {
+  Expression datum = parseExpression("t*sin(20*x)", "test");
+  const Function value = datum.value;
+  static_cast<Function&>(datum.value) = [&](double x, double y, double t) {
     ++calls;
     return value(x, y, t);
   };
@@ -81,6 +92,26 @@ TEST(LoadPlaces, peaksOfAnyLengthAreSeen) {
   EXPECT_GT(largest("(x>0.52)*(x<0.56)*(y<0.03)*exp(-((t-0.3717171)/1e-6)^2)", nullptr), 0.9);
   EXPECT_GT(largest("t+(x<0.1)*(t>0.6123)*(t<0.61231)*7"), 6);
   EXPECT_TRUE(placesOf("sin(20*t)*(1+x)").times.empty());
+}
+
+TEST(LoadPlaces, facesAndBodiesInSpaceAreSeen) {
+  EXPECT_EQ(placesInCube("-10*t*(1+x^2+z)").points.size(), 1);
+  EXPECT_EQ(placesInCube("x*t+z*t^2", nullptr).points.size(), 2);
+  EXPECT_GT(largestInCube("(x<1e-3)*(y>0.999)*exp(-((t-0.3717171)/0.004)^2)"), 0.9);
+  EXPECT_GT(largestInCube("(x>0.52)*(x<0.53)*(y<0.03)*t"), 0.9);
+  EXPECT_GT(largestInCube("(x>0.52)*(x<0.56)*(z<0.03)*exp(-((t-0.3717171)/1e-6)^2)", nullptr), 0.9);
+  EXPECT_GT(largestInCube("exp(-((t-0.3-(x+y)/9)/1e-5)^2)"), 0.9);
+  for (const SpacePoint& p : placesInCube("(x+y>0.52)*(x+y<0.53)*exp(-((t-0.3717171)/1e-6)^2)").points)
+    EXPECT_EQ(p.z(), 1);  // no place beside the face
+}
+
+TEST(LoadPlaces, degreesInSpaceCountZ) {
+  const auto datum = [](const std::string& text) { return parseExpression(text, "test", true).value; };
+  EXPECT_EQ(datum("x*z*t").degree, 2);
+  EXPECT_EQ(datum("t*z^3").degreeInTime, 1);
+  const Interval range = datum("z-x").enclosure({{0, 1}, {0, 0}, {0, 0}, {2, 3}});
+  EXPECT_EQ(range.least, 1);
+  EXPECT_EQ(range.largest, 3);
 }
 
 class LoadCoursesOfParts : public SceneFolder {

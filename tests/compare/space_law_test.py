@@ -1,0 +1,215 @@
+"""Laws of one's own in space, as expressions of six components: beside the built-in laws that they repeat,
+and beside plane strain."""
+import csv
+import json
+import unittest
+
+from support import InFolder, mortier
+
+MISES = ("sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*(s12^2 + s13^2 + s23^2))")
+COMPONENTS = ("11", "22", "12", "33", "13", "23")
+CUBE = """\
+dimension = 3
+[[body]]
+name = "cube"
+mesh = {{ shape = "cuboid", cells = 2 }}
+[body.material]
+young = 100
+poisson = 0.3
+{law}
+[[body.boundary]]
+label = "bottom"
+ux = 0
+uy = 0
+uz = 0
+[[body.boundary]]
+label = "top"
+tx = "4*t"
+ty = "2*t*x"
+tz = "-6*min(t, 0.5)"
+[time]
+end = 1
+steps = 4
+"""
+
+
+def along_deviator(factor, parameters, more="", components=COMPONENTS):
+    lines = [f'rate{c} = "({factor})*(s{c}{" - mean" if c[0] == c[1] else ""}){more.format(c=c)}"'
+             for c in components]
+    mises = MISES if "13" in components else MISES.replace(" + s13^2 + s23^2", "")
+    return "\n".join(['law = "expression"', "isotropic = true", *lines,
+                      f'parameters = {{ mises = "{mises}", mean = "(s11 + s22 + s33)/3", {parameters} }}'])
+
+
+NORTON = along_deviator("1.5*r0/s0*(mises/s0)^(n - 1)", "s0 = 5, r0 = 0.1, n = 4")
+PAIRS = {
+    "norton": ('law = "norton"\nreference_stress = 5\nreference_rate = 0.1\nexponent = 4', NORTON),
+    "maxwell": ('law = "maxwell"\nrelaxation_time = 0.3',
+                along_deviator("1.3/(E*tau)", "E = 100, tau = 0.3")),
+    "perzyna": ("viscosity = 1\nyield_stress = 2",
+                along_deviator("max(0, 1 - Y/mises)/(2*eta)", "eta = 1, Y = 2")),
+    "solid": ('law = "standard-solid"\nrelaxation_time = 0.3\nrelaxed_fraction = 0.4',
+              along_deviator("1.3/(E*tau)", 'E = 100, tau = 0.3, g = 0.4, em = "(e11 + e22 + e33)/3", '
+                             'em11 = em, em22 = em, em33 = em, em12 = 0, em13 = 0, em23 = 0'
+                             .replace("= em,", '= "em",'), " - g/tau*(e{c} - em{c})")),
+}
+
+
+class SpaceLaw(InFolder):
+    def history(self, text, *settings):
+        self.write(text)
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out",
+                     *[word for each in settings for word in ("--set", each)])
+        self.summary = json.loads(self.read("out/summary.json"))
+        return list(csv.DictReader(self.read("out/history.csv").splitlines()))
+
+    def compare(self, rows, others, columns, within):
+        self.assertEqual(len(rows), len(others))
+        for column, of in columns.items():
+            mine = [float(row[column]) for row in rows]
+            theirs = [float(row[of]) for row in others]
+            off = max(abs(a - b) for a, b in zip(mine, theirs)) / max(map(abs, theirs))
+            self.assertLess(off, within, column)
+
+    def test_equals_the_built_in_law(self):
+        columns = {name: name for name in ("von_mises_max[Pa]", "displacement_max[m]", "elastic_energy[J]")}
+        for name, (built_in, own) in PAIRS.items():
+            for settings in (("time.scheme=backward-euler",), ("time.scheme=sdirk2",),
+                             ("time.scheme=crank-nicolson",), ("degree=2",),
+                             ("time.scheme=sdirk2", "time.tolerance=1e-2")):
+                with self.subTest(name, settings=settings):
+                    expected = self.history(CUBE.format(law=built_in), *settings)
+                    self.compare(self.history(CUBE.format(law=own), *settings), expected, columns, 1e-8)
+
+    def test_an_extruded_block_is_that_of_plane_strain(self):
+        """A law without isotropy in the plane, on a block that is held at both ends."""
+        rates = {"11": "0.02*s11 + 0.01*s12 - 0.01*s33", "22": "0.01*s22*abs(s22) - 0.01*s33",
+                 "12": "0.03*s12 + 0.005*s11", "33": "0.02*s33 - 0.005*(s11 + s22)"}
+        lines = "\n".join(f'rate{c} = "{rate}"' for c, rate in rates.items())
+        block = """\
+{head}
+[[body]]
+name = "block"
+mesh = {{ shape = {shape}, cells = 2 }}
+[body.material]
+young = 100
+poisson = 0.3
+law = "expression"
+{law}
+[[body.boundary]]
+label = 2
+tx = "3*t"
+{shear}
+[[body.boundary]]
+label = 3
+tx = "1*t"
+ty = "-4*t"
+{more}
+[time]
+end = 1
+steps = 6
+scheme = "sdirk2"
+"""
+        # Tractions all around, and supports at points that only take the rigid motion away.
+        plane = self.history(block.format(
+            head='plane = "strain"', shape='"rectangle"', law=lines, shear='ty = "1*t"',
+            more='[[body.boundary]]\nlabel = 1\ntx = "-1*t"\nty = "4*t"\n[[body.boundary]]\nlabel = 4\n'
+                 'tx = "-3*t"\nty = "-1*t"\n[[body.point]]\nat = [0, 0]\nux = 0\nuy = 0\n'
+                 '[[body.point]]\nat = [1, 0]\nuy = 0'))
+        # y of the plane is z of the cuboid, and its y is z of the plane: 33 is 22, 12 is 13.
+        turn = {"11": "11", "22": "33", "12": "13", "33": "22"}
+        turned = {}
+        for c, rate in rates.items():
+            for a, b in turn.items():
+                rate = rate.replace(f"s{a}", f"S{b}")
+            turned[turn[c]] = rate.replace("S", "s")
+        turned.update({"12": "0.02*s12", "23": "0.02*s23"})
+        space = self.history(block.format(
+            head="dimension = 3", shape='"cuboid"', shear='tz = "1*t"',
+            law="\n".join(f'rate{c} = "{rate}"' for c, rate in turned.items()),
+            more='[[body.boundary]]\nlabel = 1\ntx = "-1*t"\ntz = "4*t"\n[[body.boundary]]\nlabel = 4\n'
+                 'tx = "-3*t"\ntz = "-1*t"\n[[body.boundary]]\nlabel = 5\nuy = 0\n[[body.boundary]]\n'
+                 'label = 6\nuy = 0\n[[body.point]]\nat = [0, 0, 0]\nux = 0\nuz = 0\n[[body.point]]\n'
+                 'at = [1, 0, 0]\nuz = 0').replace('ty = "-4*t"', 'tz = "-4*t"'))
+        self.compare(space, plane, {"von_mises_max[Pa]": "von_mises_max[Pa]",
+                                    "displacement_max[m]": "displacement_max[m]",
+                                    "elastic_energy[J]": "elastic_energy[J/m]"}, 1e-9)
+
+    def test_all_components_count(self):
+        """Shears across the plane flow by rates of their own."""
+        creep = CUBE.format(law="\n".join(['law = "expression"'] + [
+            f'rate{c} = "{rate}"' for c, rate in (("11", "0*s11"), ("22", 0), ("12", 0), ("33", 0),
+                                                  ("13", "a*s13"), ("23", "b*s23"))] + [
+            "parameters = { a = 0.01, b = 0 }"]).replace('"0"', "0")).replace(
+                'tx = "4*t"\nty = "2*t*x"\ntz = "-6*min(t, 0.5)"', 'tx = 4\nty = 4')
+        ends = []
+        for settings in (("a=0", "b=0"), ("a=0.01", "b=0"), ("a=0", "b=0.01"), ("a=0.01", "b=0.01")):
+            words = [f"body.cube.material.parameters.{each}" for each in settings]
+            ends.append(float(self.history(creep, *words)[-1]["displacement_max[m]"]))
+        # The cube is as stiff along y as along x but for its diagonals.
+        self.assertGreater(ends[1], 1.02 * ends[0])
+        self.assertGreater(ends[2], 1.02 * ends[0])
+        self.assertGreater(ends[3], max(ends[1:3]))
+
+    def test_regions_and_restart(self):
+        text = CUBE.format(law=PAIRS["solid"][1])
+        whole = self.history(text)
+        self.write(text)
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--restart", "out")
+        self.assertEqual(list(csv.DictReader(self.read("out/history.csv").splitlines())), whole)
+
+    def test_mortier_law(self):
+        def told(law, *arguments, code=0):
+            self.write(CUBE.format(law=law))
+            done = mortier("law", "scene.toml", *arguments, cwd=self.folder)
+            self.assertEqual((done.returncode, done.stderr), (code, ""))
+            self.assertIn("in space, stresses up to", done.stdout)
+            return {line.split()[0]: line for line in done.stdout.splitlines() if line.startswith("  ")}
+        for name, (built_in, own) in PAIRS.items():
+            with self.subTest(name):
+                for law in (built_in, own):
+                    lines = told(law, "--stress", "50")
+                    self.assertNotIn("WRONG", "".join(lines.values()))
+                    self.assertLess(float(lines["tangent"].split()[1]), 1e-6)
+                    self.assertLess(float(lines["isotropy"].split()[1]), 1e-12)
+        lipschitz = float(told(PAIRS["maxwell"][1])["Lipschitz"].split()[1])
+        self.assertAlmostEqual(lipschitz * 0.3, 1, delta=1e-3)
+        # A shear across the plane is part of what is tried: of axes that turn, and of energy.
+        for shear, factor in (("13", 2), ("23", 0)):
+            wrong = NORTON.replace(f'rate{shear} = "', f'rate{shear} = "{factor}*')
+            self.assertIn("WRONG", told(wrong, code=1)["isotropy"])
+        heats = NORTON.replace('rate13 = "', 'rate13 = "-').replace("isotropic = true", "")
+        self.assertIn("it makes energy", told(heats, code=1)["dissipation"])
+        steep = along_deviator("sinh(mises/s0)", "s0 = 0.1")
+        self.assertRegex(told(steep, "--stress", "1e3", code=1)["rate"],
+                         "the least without at s11 = .*, s12 = .*, s33 = .*, s13 = .*, s23 = ")
+
+    def test_what_is_wrong_is_named(self):
+        def refuse(message, law, *settings):
+            self.write(CUBE.format(law=law))
+            self.reject(message, "run", "scene.toml", "--quiet", "--out", "out",
+                        *[word for each in settings for word in ("--set", each)])
+        for c in ("33", "13", "23"):
+            lines = "\n".join(line for line in NORTON.splitlines() if not line.startswith(f"rate{c}"))
+            refuse(f"scene.toml:5: body cube: missing key rate{c}", lines)
+        refuse("scene.toml:10: body cube: rate11", NORTON.replace('rate11 = "', 'rate11 = "s31 + '))
+        refuse("scene.toml:16: body cube: parameters.s13, expected another name",
+               NORTON.replace("n = 4", "n = 4, s13 = 1"))
+        refuse('scene.toml:10: body cube: law = "expression", expected a rate that is a number without '
+               "stress and strain, is not one in component 23",
+               NORTON.replace('rate23 = "', 'rate23 = "0*log(-1) + '))
+        self.write(CUBE.format(law=NORTON).replace("dimension = 3", 'plane = "strain"').replace(
+            'shape = "cuboid"', 'shape = "rectangle"'))
+        self.reject("scene.toml:14: body cube: rate13 =", "run", "scene.toml")
+        self.assertIn("expected it with dimension = 3 only", mortier(
+            "run", "scene.toml", cwd=self.folder).stderr)
+
+    def test_freefem_refuses(self):
+        self.write(CUBE.format(law=NORTON))
+        said = mortier("freefem", "scene.toml", cwd=self.folder)
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("material: law", said.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

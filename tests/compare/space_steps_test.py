@@ -1,0 +1,168 @@
+"""Steps in space chosen by their error: those of the plane on bodies that are extruded, and the tolerance."""
+import csv
+import json
+import unittest
+
+from support import InFolder
+
+# Two blocks in plane strain and the same blocks in space, held at both ends: the stress is uniform in each.
+# y of the plane is z in space.
+MATERIALS = {
+    "perzyna": ('viscosity = 8, yield_stress = 1', 'viscosity = 5, yield_stress = 2'),
+    "maxwell": ('law = "maxwell", relaxation_time = 0.5', 'law = "maxwell", relaxation_time = 0.2'),
+    "norton": ('law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3', ''),
+}
+PRESSURE = "8*min(t, 0.4) + (t > 0.7)"
+
+
+def blocks(space, laws, time):
+    def place(x, y):
+        return f"[{x}, 0, {y}]" if space else f"[{x}, {y}]"
+    ends = "{ label = 5, uy = 0 }, { label = 6, uy = 0 }, " if space else ""
+    up = "z" if space else "y"
+    bodies = "".join(f"""\
+[[body]]
+name = "{name}"
+volume = "pointwise"
+mesh = {{ shape = "{"cuboid" if space else "rectangle"}", cells = {cells}, lower = {place(0, low)}, """
+        f"upper = {f'[1, 1, {low + 1}]' if space else f'[1, {low + 1}]'} }}"
+        f"""
+material = {{ young = 100, poisson = 0.3, {law} }}
+boundary = [ {ends}{{ label = 4, ux = 0 }}, {held} ]
+""".replace(", }", " }") for name, cells, low, law, held in (
+            ("upper", 1, 0, laws[0], f'{{ label = 3, pressure = "{PRESSURE}" }}'),
+            ("lower", 2, -1, laws[1], f"{{ label = 1, u{up} = 0 }}")))
+    return f"""\
+{"dimension = 3" if space else 'plane = "strain"'}
+{bodies}[contact]
+nonmortar = {{ body = "upper", label = 1 }}
+mortar = {{ body = "lower", label = 3 }}
+variant = "weighted"
+[time]
+end = 1
+{time}
+"""
+
+
+# A block that tilts onto another one, and flows: contact closes and opens, the load has kinks.
+PRESSED = """\
+dimension = 3
+degree = {degree}
+[[body]]
+name = "upper"
+mesh = {{ shape = "cuboid", cells = 2 }}
+material = {{ young = 100, poisson = 0.3, {law} }}
+[[body.boundary]]
+label = "top"
+tz = "-4*(1 + x*y)*(t < 0.3 ? t/0.3 : 1.3 - t)"
+[[body.boundary]]
+label = "left"
+ux = 0
+[[body.boundary]]
+label = "front"
+uy = 0
+[[body]]
+name = "lower"
+mesh = {{ shape = "cuboid", lower = [0, 0, -1], upper = [1.5, 1.5, 0], cells = 2 }}
+material = {{ young = 100, poisson = 0.3 }}
+boundary = [ {{ label = "bottom", ux = 0, uy = 0, uz = 0 }} ]
+[contact]
+nonmortar = {{ body = "upper", label = "bottom" }}
+mortar = {{ body = "lower", label = "top" }}
+[[quantity]]
+name = "corner"
+displacement = {{ body = "upper", point = [1, 1, 1] }}
+component = "z"
+[[quantity]]
+name = "stored"
+stored_energy = {{ body = "upper" }}
+[time]
+end = 1
+scheme = "{scheme}"
+{time}
+"""
+
+
+class SpaceSteps(InFolder):
+    def history(self, text, *settings):
+        self.write(text)
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out",
+                     *[word for each in settings for word in ("--set", each)])
+        self.summary = json.loads(self.read("out/summary.json"))
+        return [{name: value if name == "rung" else float(value) for name, value in row.items()}
+                for row in csv.DictReader(self.read("out/history.csv").splitlines())]
+
+    def test_bodies_that_are_extruded_take_the_steps_of_the_plane(self):
+        for name, laws in MATERIALS.items():
+            for scheme in ("sdirk2", "backward-euler"):
+                with self.subTest(name, scheme=scheme):
+                    tolerance = 1e-3 if scheme == "sdirk2" else 1e-2
+                    time = f'scheme = "{scheme}"\ntolerance = {tolerance}'
+                    plane = self.history(blocks(False, laws, time))
+                    space = self.history(blocks(True, laws, time))
+                    self.assertGreater(len(plane), 8)
+                    self.assertEqual(len(space), len(plane))
+                    for column in ("time[s]", "von_mises_max[Pa]", "displacement_max[m]", "max_pressure[Pa]"):
+                        largest = max(abs(row[column]) for row in plane)
+                        for mine, other in zip(space, plane):
+                            self.assertAlmostEqual(mine[column] / largest, other[column] / largest,
+                                                   delta=1e-9, msg=column)
+                    # Per depth of 1.
+                    self.assertAlmostEqual(space[-1]["contact_force[N]"], plane[-1]["contact_force[N/m]"],
+                                           delta=1e-9)
+
+    def test_steps_end_where_data_turn(self):
+        time = 'scheme = "sdirk2"\ntolerance = 1e-2'
+        text = blocks(True, MATERIALS["maxwell"], time)
+        times = {row["time[s]"] for row in self.history(text)}
+        self.assertTrue({0.4, 0.7} <= times, times)
+        # What happens at one place of the boundary, or of the body, and along z.
+        for load in ("8*min(t, 0.45)*(y > 0.9)", "t + (x < 0.1)*(t > 0.45)"):
+            times = {row["time[s]"] for row in self.history(text, f"body.upper.boundary.3.pressure={load}")}
+            self.assertIn(0.45, times, load)
+        times = {row["time[s]"] for row in self.history(
+            text, "body.upper.boundary.3.pressure=t", "body.upper.force={z='-min(t, 0.45)*(z > 0.8)'}",
+            "body.lower.boundary.1.uz=-0.001*min(t, 0.15)")}
+        self.assertTrue({0.15, 0.45} <= times, times)
+
+    def test_what_varies_too_fast_is_refused_with_its_place(self):
+        text = blocks(True, MATERIALS["maxwell"], 'scheme = "sdirk2"\ntolerance = 1e-2')
+        self.write(text.replace(PRESSURE, "sin(1e7*t*(1 + z))"))
+        said = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=2).stderr
+        self.assertRegex(said, r"expected a datum that can be sampled in time: at \(.*, .*, 1\) it varies")
+
+    def test_the_tolerance_is_kept(self):
+        """Against equal fine steps; displacement and energy are those of parts of the body, whose errors may
+        be somewhat larger than that of the whole."""
+        for degree, law in ((1, "viscosity = 1, yield_stress = 1.5"),
+                            (2, 'law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3')):
+            fine = PRESSED.format(degree=degree, law=law, scheme="sdirk2", time="steps = 320")
+            self.history(fine)
+            exact = {name: each["value"] for name, each in self.summary["quantities"].items()}
+            for scheme, tolerance in (("sdirk2", 1e-2), ("sdirk2", 1e-3), ("backward-euler", 2e-2)):
+                with self.subTest(law, scheme=scheme, tolerance=tolerance):
+                    rows = self.history(PRESSED.format(degree=degree, law=law, scheme=scheme,
+                                                       time=f"tolerance = {tolerance}"))
+                    self.assertLess(len(rows), 320)
+                    self.assertIn(0.3, {row["time[s]"] for row in rows})
+                    self.assertLessEqual(self.summary["accuracy"]["time"], tolerance)
+                    for name, each in self.summary["quantities"].items():
+                        self.assertAlmostEqual(each["value"] / exact[name], 1, delta=1.5 * tolerance)
+
+    def test_rounds_choose_steps_where_bodies_flow(self):
+        text = PRESSED.format(degree=1, law='law = "maxwell", relaxation_time = 0.5', scheme="sdirk2",
+                              time="steps = 3")
+        self.history(text, "accuracy={energy=0.4, max_unknowns=20000}")
+        self.assertGreater(self.summary["accuracy"]["time"], 0)
+        self.assertLess(self.summary["accuracy"]["time"], 0.2 * 0.4 + 1e-12)
+
+    def test_checks_name_data_that_pass_between_equal_steps(self):
+        time = "steps = 5"
+        self.write(blocks(True, MATERIALS["maxwell"], time).replace(
+            PRESSURE, "exp(-((t - 0.5)/0.02)^2)*(y > 0.5)"))
+        said = self.mortier("check", "scene.toml").stdout
+        self.assertIn("load-between-steps", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
