@@ -311,7 +311,6 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     // What passes within a step that begins where the data turn its stages do not see either.
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
-    // Where nothing flows or rubs there is no memory.
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
                          flows_ && !isShortest(state.time, k) && (rough_ || taker.flowsWithin());
     if (step.beginsPair || looksOn) kept = taker.kept();

@@ -38,6 +38,8 @@ UNLOADED = 1759
 FLOATING = (1542, 2747)
 # Friction dissipates far more than the first guess of it, by which errors of steps are measured.
 OUTGROWN = 1580
+# On meshes of a hundred to a thousand triangles the error grows before it falls.
+COARSE = 2870
 # Quadratic rings: the row function of a node on the axis has no force.
 FORCELESS = 316
 SECONDS = 10
@@ -62,7 +64,7 @@ class RandomScenes(unittest.TestCase):
 
     def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
         results = explore(PROGRAM, 0, CHOICES, SECONDS, kind=WideScene)
-        for seed in (BETWEEN_NODES, ON_THE_AXIS, FORCELESS, OUTGROWN):
+        for seed in (BETWEEN_NODES, ON_THE_AXIS, FORCELESS, OUTGROWN, COARSE):
             results += explore(PROGRAM, seed, 1, SECONDS, kind=WideScene)
         for result in results:
             with self.subTest(seed=result["seed"]):
