@@ -160,10 +160,11 @@ Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
 Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double seconds) {
   constexpr double short_ = 2;
   constexpr double stalled = 0.9;
-  const int often = meshError_ > 1 ? 6 : 2;
+  constexpr int few = 2000;  // unknowns, of which a round costs next to nothing
+  const int often = meshError_ > 1 || meshes_.unknowns() < few ? 6 : 2;
   constexpr double first = 0.5;
-  // On coarse meshes a round may fall short, and more often where the error is larger than the solution:
-  // bodies that touch between their nodes do so on finer meshes only.
+  // On coarse meshes a round may fall short, as bodies that touch between their nodes do so on finer meshes
+  // only: more often where the meshes are small or the error is larger than the solution.
   const bool fell = meshError_ < stalled * lowest_;
   lowest_ = std::min(lowest_, meshError_);
   if (!std::isfinite(meshError_)) return stop("no stress of finite energy meets the data");

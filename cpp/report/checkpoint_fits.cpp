@@ -117,7 +117,8 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
           "step length");
   require(memory.controller.strain.empty() || isLike(memory.controller.strain, stresses), "error in time");
   for (const SlipAndWork& error : {memory.controller.slip, memory.controller.missed})
-    require((error.slip.empty() || isLike(error.slip, begin.frictionForce)) && std::isfinite(error.work),
+    require((error.slip.empty() || isLike(error.slip, begin.frictionForce)) && std::isfinite(error.work) &&
+                (error.strain.empty() || isLike(error.strain, stresses)),
             "error in time");
   require(isTime(memory.controller.pairEnd), "step length");
   require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&

@@ -44,7 +44,7 @@ MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping,
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)
-MORTIER_MEMBERS(SlipAndWork, slip, work)
+MORTIER_MEMBERS(SlipAndWork, slip, work, strain)
 MORTIER_MEMBERS(ControllerMemory, trial, shortestInaccurate, crossing, start, timeStep, scale, largest, local,
                 strain, error, worst, slip, missed, pairEnd)
 MORTIER_MEMBERS(SolverMemory, enginesGivenUp, elasticFactors)

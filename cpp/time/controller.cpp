@@ -109,7 +109,8 @@ void Controller::begin(const State& state) {
 bool Controller::abandons() {
   ControllerMemory& own = memory_.controller;
   const int iterations = memory_.run.iterations - memory_.run.pilotIterations;
-  if (own.crossing == 0 && relative(own.worst, own.scale) > plan_.tolerance) own.crossing = iterations;
+  const bool exceeds = relative(own.worst, own.scale) > plan_.tolerance;  // the scale may have grown
+  own.crossing = exceeds ? (own.crossing > 0 ? own.crossing : iterations) : 0;
   return own.crossing > 0 && iterations >= 2 * own.crossing && own.trial < trials && !own.shortestInaccurate;
 }
 
@@ -137,7 +138,7 @@ bool Controller::beginAgain(State& state) {
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
 /// as it was. A contact that closes does amplify them: errors of displacements become errors of stresses.
-void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
+void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork missed) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));
   std::vector<Response>& response = local.response;
@@ -147,9 +148,11 @@ void Controller::add(StepTaker& taker, StepError local, double size, const SlipA
     addTo(response, carried.response);
   }
   for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried.strain[b];
-  addTo(own.slip, 1, missed);
   if (!missed.slip.empty()) size += sizeOf(taker, missed);
-  if (!own.slip.slip.empty()) addTo(response, taker.responseTo(own.slip.slip));
+  const std::vector<Matrix> flowed = std::exchange(missed.strain, {});
+  addTo(own.slip, 1, missed);
+  addTo(own.strain, 1, flowed);
+  if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
   if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
@@ -173,11 +176,11 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
-  const ErrorNorms& scale = memory_.controller.scale;
-  const bool ofStress = relative({norms.stress, 0, 0}, scale) > relative({0, norms.displacement, 0}, scale);
+  const ControllerMemory& own = memory_.controller;
+  const bool ofStress =
+      relative({norms.stress, 0, 0}, own.scale) > relative({0, norms.displacement, 0}, own.scale);
   if (norms.stress > change && ofStress) multiply(result.local, change / norms.stress);
   norms.stress = std::min(norms.stress, change);
-  const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
   result.change = relative({change, 0, 0}, own.scale);
   const double error = result.size / own.local;
@@ -309,7 +312,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
-                         flows_ && !isShortest(state.time, k);
+                         flows_ && !isShortest(state.time, k) && (rough_ || taker.flowsWithin());
     if (step.beginsPair || looksOn) kept = taker.kept();
     const double twice = std::exp2(tableau(plan_.scheme).stages.size());  // the error of a step twice as long
     if (looksOn) multiply(step.judgement.local, 1 / twice);

@@ -68,6 +68,7 @@ class Controller {
     Judgement judgement = {};
     SlipAndWork missed = {};  ///< by one step over the pair that it begins; the second is still to be added
     bool beginsPair = false;
+    bool contactChanges = false;
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow
@@ -78,6 +79,7 @@ class Controller {
   /// Solves the second step of a pair, to `end`, and compares the pair with one step.
   /// \returns whether it is good \param factor  by which the next pair may be longer
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
+  static void addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
   /// Takes the step from `start` again as two half steps (closing_control.cpp).
   /// \param closing  its length where contact closes in it, else 0
@@ -93,7 +95,7 @@ class Controller {
   [[nodiscard]] double leastStep(double t) const;
   [[nodiscard]] bool isShortest(double t, double k) const;
   [[nodiscard]] bool stepsTooSmall(double t, double k) const;
-  void add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed);
+  void add(StepTaker& taker, StepError local, double size, SlipAndWork missed);
 
   const TimePlan& plan_;
   MarchMemory& memory_;

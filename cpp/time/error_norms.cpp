@@ -19,12 +19,20 @@ double relative(const ErrorNorms& error, const ErrorNorms& scale) {
   return std::isfinite(s) && std::isfinite(u) && std::isfinite(f) ? std::max({s, u, f}) : 1;
 }
 
+void addTo(std::vector<Matrix>& sum, double factor, const std::vector<Matrix>& part) {
+  for (size_t b = 0; b < part.size(); ++b) {
+    if (sum.size() == b) sum.emplace_back(Matrix::Zero(part[b].rows(), part[b].cols()));
+    sum[b] += factor * part[b];
+  }
+}
+
 void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part) {
   for (size_t k = 0; k < part.slip.size(); ++k) {
     if (sum.slip.size() == k) sum.slip.emplace_back(Vector::Zero(part.slip[k].size()));
     sum.slip[k] += factor * part.slip[k];
   }
   sum.work += factor * part.work;
+  addTo(sum.strain, factor, part.strain);
 }
 
 void addTo(std::vector<Response>& sum, const std::vector<Response>& part) {

@@ -17,6 +17,7 @@ ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b);
 double relative(const ErrorNorms& error, const ErrorNorms& scale);
 
 /// sum += factor part
+void addTo(std::vector<Matrix>& sum, double factor, const std::vector<Matrix>& part);
 void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part);
 
 void addTo(std::vector<Response>& sum, const std::vector<Response>& part);

@@ -23,10 +23,11 @@ struct ErrorNorms {
   double friction = 0;      ///< dissipated by friction since the run began [J/m]
 };
 
-/// What slips, or by how much computed slips are off: exact less computed.
+/// What slips and flows in a step, or by how much that is off: exact less computed.
 struct SlipAndWork {
-  std::vector<Vector> slip;  ///< T u per interface [m]; empty: none
-  double work = 0;           ///< that friction dissipates [J/m]
+  std::vector<Vector> slip;    ///< T u per interface [m]; empty: none
+  double work = 0;             ///< that friction dissipates [J/m]
+  std::vector<Matrix> strain;  ///< viscoplastic, per body; empty: none
 };
 
 /// Of steps chosen by their error.

@@ -62,6 +62,7 @@ ControllerMemory taken(const Way& way, const ControllerMemory& from) {
                           worst,    slip,
                           missed,   pairEnd};
   for (size_t b = 0; b < strain.size(); ++b) memory.strain.push_back(way.points(b, strain[b]));
+  for (size_t b = 0; b < missed.strain.size(); ++b) memory.missed.strain[b] = way.points(b, missed.strain[b]);
   return memory;
 }
 

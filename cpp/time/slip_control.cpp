@@ -10,9 +10,16 @@ namespace mortier {
 /// What nodes that stick have missed of their slip they keep; of those that slip the friction is known, and
 /// where they are follows from the others (solver/respond.cpp).
 double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
-  ErrorNorms norms = measure_.sizeOf(taker.responseTo(missed.slip));
+  ErrorNorms norms = measure_.sizeOf(taker.response(missed.strain, missed.slip));
   norms.friction = std::abs(missed.work);
   return relative(norms, memory_.controller.scale);
+}
+
+/// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
+/// show. What they do show that one misses 2^(p+1) times.
+void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
+  addTo(missed, 1, taker.slip());
+  addTo(missed.strain, 1 - std::exp2(taker.errorOrder() - 1), of.local.strain);
 }
 
 Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, Effort effort,
@@ -35,7 +42,10 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
   step.outcome = attempt(taker, t0, step.t1, effort, onsets, step.judgement);
   step.outcome.iterations += once.iterations;
   step.outcome.factorisations += once.factorisations;
-  if (step.beginsPair && step.outcome.converged()) addTo(step.missed, 1, taker.slip());
+  if (step.beginsPair && step.outcome.converged()) {
+    addOfPair(taker, step.judgement, step.missed);
+    step.contactChanges = taker.contactChanges();
+  }
   return step;
 }
 
@@ -48,7 +58,9 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
   bool good = second.outcome.converged() && second.judgement.good;
   if (good) {
     SlipAndWork missed = first.missed;
-    addTo(missed, 1, taker.slip());
+    addOfPair(taker, second.judgement, missed);
+    // Stages show the flow unless contact changes between them.
+    if (!first.contactChanges && !taker.contactChanges()) missed.strain.clear();
     const double size = sizeOf(taker, missed);
     const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
     factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});

@@ -1,7 +1,6 @@
 // The error of a step, by what its stages miss of the flow in between.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/dense_templates.h"
 #include "solver/total_strain.h"
@@ -170,6 +169,11 @@ void StepTaker::limit(const Fields& rates, Fields& missed) const {
     }
 }
 
+bool StepTaker::flowsWithin() const {
+  const Fields rates = stageRates();
+  return model_.any(!noneHere(startingRates()) || !std::all_of(rates.begin(), rates.end(), noneHere));
+}
+
 StepError StepTaker::localError() {
   const size_t stages = tableau_.stages.size();
   const Fields rates = stageRates();
@@ -193,7 +197,11 @@ StepError StepTaker::carried(const std::vector<Matrix>& strain) {
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
                                           const std::vector<Vector>& slip) {
   std::vector<Matrix> felt;
-  for (size_t b = 0; b < strain.size(); ++b) felt.push_back(feltStrain(b, strain[b]));
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    felt.push_back(strain.empty() ? Matrix::Zero(body.material().components(), body.points())
+                                  : feltStrain(b, strain[b]));
+  }
   return system_.respond(felt, solutions_.back(), slip);
 }
 
@@ -224,30 +232,6 @@ Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
     felt.col(i) = system.partialPivLu().solve(strain.col(i));
   }
   return felt;
-}
-
-std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {
-  std::vector<Matrix> none;
-  for (const Body& body : model_.bodies)
-    none.push_back(Matrix::Zero(body.material().components(), body.points()));
-  return response(none, slip);
-}
-
-SlipAndWork StepTaker::slip() const {
-  const std::vector<double> work = frictionWork(model_, solutions_.back());
-  return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0)};
-}
-
-std::vector<Vector> StepTaker::slipOf(const std::vector<Response>& response) const {
-  std::vector<Vector> result;
-  for (const ContactInterface& interface : model_.interfaces) {
-    const ContactPair& pair = interface.pair();
-    result.emplace_back();
-    if (interface.hasFriction())
-      result.back() =
-          interface.slip(response[pair.nonmortar.body].displacement, response[pair.mortar.body].displacement);
-  }
-  return result;
 }
 
 std::vector<Response> StepTaker::change(size_t stage) const {

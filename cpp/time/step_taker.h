@@ -44,16 +44,20 @@ class StepTaker {
   StepError localError();
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   StepError carried(const std::vector<Matrix>& strain);
+  /// Whether any point flows in the state or at a stage of the last attempt: where none does bodies have no
+  /// memory of the step.
+  [[nodiscard]] bool flowsWithin() const;
   /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
+  /// Whether any contact opens, closes, sticks or slips there that did not in the state.
+  [[nodiscard]] bool contactChanges() const;
   /// The error of the state from which the last attempt begins, as far as its stresses relax within the
   /// attempt: its flow is not that with which the attempt begins.
   std::vector<Response> lagAtStart();
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
-  /// of the slip of the nodes that stick there.
+  /// of the slip of the nodes that stick there; of no strain where that is empty.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
-  std::vector<Response> responseTo(const std::vector<Vector>& slip);
-  /// Slip and dissipation by friction of the last attempt.
+  /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;

@@ -19,6 +19,8 @@ ON_THE_AXIS = 2760
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
 RINGING = 287
+# It rings at 1e11 yield stresses: rounding leaves more than a tolerance of the law.
+ROUNDED = 282
 # The error of a step is told too large until it is as short as time resolves,
 # where rounding makes it a little longer.
 SHORTEST = 275
@@ -34,6 +36,10 @@ CRAWLING = 504
 # of distances.
 UNLOADED = 1759
 FLOATING = (1542, 2747)
+# Friction dissipates far more than the first guess of it, by which errors of steps are measured.
+OUTGROWN = 1580
+# On meshes of a hundred to a thousand triangles the error grows before it falls.
+COARSE = 2870
 # Quadratic rings: the row function of a node on the axis has no force.
 FORCELESS = 316
 SECONDS = 10
@@ -42,7 +48,7 @@ SECONDS = 10
 class RandomScenes(unittest.TestCase):
     def test_every_scene_ends_with_a_result_or_an_unheld_motion(self):
         results = explore(PROGRAM, FIRST, COUNT, SECONDS)
-        for seed in (MOVED, RINGING, SHORTEST, OVERLAP, UNRESOLVED, FOLLOWING):
+        for seed in (MOVED, RINGING, ROUNDED, SHORTEST, OVERLAP, UNRESOLVED, FOLLOWING):
             results += explore(PROGRAM, seed, 1, SECONDS)
         for result in results:
             with self.subTest(seed=result["seed"]):
@@ -58,7 +64,7 @@ class RandomScenes(unittest.TestCase):
 
     def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
         results = explore(PROGRAM, 0, CHOICES, SECONDS, kind=WideScene)
-        for seed in (BETWEEN_NODES, ON_THE_AXIS, FORCELESS):
+        for seed in (BETWEEN_NODES, ON_THE_AXIS, FORCELESS, OUTGROWN, COARSE):
             results += explore(PROGRAM, seed, 1, SECONDS, kind=WideScene)
         for result in results:
             with self.subTest(seed=result["seed"]):
