@@ -324,8 +324,8 @@ std::shared_ptr<const Material> materialOf(const Elasticity& elasticity, const O
     throw InputError(law.where + ", expected rate33 beside the others " +
                      (plane == Plane::strain ? "in plane strain" : "around an axis"));
   if (!law.law->takes(rows))
-    throw InputError(law.where +
-                     ", expected a law of six components in space, this one has the plane's four");
+    throw InputError(law.where + ", expected a law " + (n == 6 ? "in space" : "in the plane") +
+                     ": the rate of this one has " + (n == 6 ? "four components" : "six"));
   Matrix strain = Matrix::Zero(rows, 1);
   if (n == 3) strain(3, 0) = std::numeric_limits<double>::quiet_NaN();
   Matrix rate = Matrix::Zero(rows, 1);

@@ -110,26 +110,30 @@ class TypedRateLaw final : public RateLaw {
  public:
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
   [[nodiscard]] bool needsTotalStrain() const override { return Law::needsTotalStrain; }
-  [[nodiscard]] bool takes(int components) const override { return components == 4 || inSpace; }
+  [[nodiscard]] bool takes(int components) const override { return components == 4 ? inPlane : inSpace; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
-    if (stress.rows() == 4)
-      evaluateBlocks<4, Law::needsTotalStrain>(
-          [this]<class Number>(const Number* in, Number* out, int points) {
-            eachPoint<Components<Number>>(in, out, points);
-          },
-          stress, strain, rate, slopes);
-    else if constexpr (inSpace)
-      evaluateBlocks<6, Law::needsTotalStrain>(
-          [this]<class Number>(const Number* in, Number* out, int points) {
-            eachPoint<SpaceComponents<Number>>(in, out, points);
-          },
-          stress, strain, rate, slopes);
+    if constexpr (inPlane)
+      if (stress.rows() == 4) return evaluateAs<4, Components>(stress, strain, rate, slopes);
+    if constexpr (inSpace)
+      if (stress.rows() == 6) return evaluateAs<6, SpaceComponents>(stress, strain, rate, slopes);
   }
 
  private:
-  static constexpr bool inSpace = requires(const Law& law, const SpaceComponents<double>& tensor) {
+  template <class Tensor>
+  static constexpr bool isOf = requires(const Law& law, const Tensor& tensor) {
     law.rateOf(tensor, tensor);
   };
+  static constexpr bool inPlane = isOf<Components<double>>;
+  static constexpr bool inSpace = isOf<SpaceComponents<double>>;
+
+  template <int n, template <class> class Tensor>
+  void evaluateAs(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const {
+    evaluateBlocks<n, Law::needsTotalStrain>(
+        [this]<class Number>(const Number* in, Number* out, int points) {
+          eachPoint<Tensor<Number>>(in, out, points);
+        },
+        stress, strain, rate, slopes);
+  }
 
   template <class Tensor, class Number>
   void eachPoint(const Number* in, Number* out, int points) const {

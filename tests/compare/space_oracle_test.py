@@ -89,6 +89,10 @@ class SpaceOracle(unittest.TestCase):
         for setting, message in (
                 ("degree=2", "degree = 2"),
                 ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=1}', "material: law"),
+                ('body.material={young=100, poisson=0.3, law="expression", rate11="s11", rate22="s22", '
+                 'rate12="s12", rate33="s33", rate13="s13", rate23="s23"}', "material: law"),
+                ("time.tolerance=0.01", "tolerance"),
+                ('body.upper.mesh={shape="rectangle", cells=1, extrude=1, layers=1}', "expected"),
                 ("contact.initial=close", 'initial = "close"'), ("contact.gap=0.1", "contact: gap"),
                 ("body.temperature=1", "temperature"), ("body.initial_stress={s13=1}", "initial stress"),
                 ('body.material={elasticity="general", stiffness=[[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],'

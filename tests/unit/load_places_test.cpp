@@ -110,8 +110,8 @@ TEST(LoadPlaces, degreesInSpaceCountZ) {
   EXPECT_EQ(datum("x*z*t").degree, 2);
   EXPECT_EQ(datum("t*z^3").degreeInTime, 1);
   const Interval range = datum("z-x").enclosure({{0, 1}, {0, 0}, {0, 0}, {2, 3}});
-  EXPECT_EQ(range.least, 1);
-  EXPECT_EQ(range.largest, 3);
+  EXPECT_NEAR(range.least, 1, 1e-12);
+  EXPECT_NEAR(range.largest, 3, 1e-12);
 }
 
 class LoadCoursesOfParts : public SceneFolder {

@@ -399,6 +399,8 @@ TEST(OwnMaterial, aLawOfThePlaneIsNoneOfSpace) {
   EXPECT_THROW(ownMaterial(elasticity, named(rateLaw(Broken())), Plane::none), InputError);
   EXPECT_TRUE(rateLaw(OwnNorton{})->takes(6));
   EXPECT_FALSE(rateLaw(Jump())->takes(6));
+  EXPECT_FALSE(rateLaw(Skew())->takes(4));
+  EXPECT_THROW(ownMaterial(elasticity, named(rateLaw(Skew())), Plane::strain), InputError);
 }
 
 }  // namespace mortier::own_material_test
