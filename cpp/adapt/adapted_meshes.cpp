@@ -239,8 +239,9 @@ void AdaptedMeshes::cutToSize(Body& body, const Vector& reduction, std::vector<c
   std::vector<double> limit(marked.size(), std::numeric_limits<double>::infinity());
   for (size_t t = 0; t < marked.size(); ++t)
     if (marked[t] != 0) limit[t] = wanted(t);
-  // An element is half as large when it is cut: from there on, cutting it is nearer to what it should be.
-  const double slack = std::log(2.0) / 2 + 1e-9;
+  // An element is half as large when it is cut: from there on, cutting it is nearer to what it should be. In
+  // space the cuts that keep the mesh conforming make many smaller than that.
+  const double slack = std::log(2.0) * (dimension_ == 2 ? 0.5 : 0.75) + 1e-9;
   for (bool first = true;; first = false) {
     marked.resize(elementsOf(body.mesh).size(), 0);
     bool any = false;

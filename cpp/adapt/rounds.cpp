@@ -15,8 +15,12 @@ namespace {
 
 /// An estimate may be this part of the error, so that it has to be below this part of what is asked.
 constexpr double leastShare = 0.9;
-constexpr double careful = 0.75;         // aims are this part of what is asked
-constexpr double reductionOfARound = 4;  // by which a round divides the error, about
+constexpr double careful = 0.75;  // aims are this part of what is asked
+/// By which a round divides the error, about. In space unknowns cost more than rounds do, and meshes of
+/// several small steps have fewer.
+constexpr double reductionInPlane = 4;
+constexpr double reductionInSpace = 2;
+constexpr double carefulInSpace = 0.86;
 
 /// The same where a large error is asked for: what the recovered stress misses is of higher order.
 double leastOf(double asked) {
@@ -170,8 +174,10 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   if (!std::isfinite(meshError_)) return stop("no stress of finite energy meets the data");
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
-  const double excess = corrected_ / (careful / leastShare * ofMeshes);
-  const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reductionOfARound)));
+  const bool space = meshes_.inSpace();
+  const double excess = corrected_ / ((space ? carefulInSpace : careful) / leastShare * ofMeshes);
+  const double reduction = space ? reductionInSpace : reductionInPlane;
+  const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reduction)));
   const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
   double cost = result.seconds;
   if (timeTolerance_ > 0) {

@@ -357,10 +357,18 @@ class Accuracy(InFolder):
             said = self.mortier("mesh", "info", f"out/{name}.mesh").stdout
             self.assertRegex(said, rf"label 3 +\d+ triangles, area {area}, top")
             self.assertIn(f"volume     {area}", said)
-        # The nonmortar side is chosen on the first meshes.
-        self.mortier("run", "scene.toml", "--out", "again", "--quiet", "--set", "contact.swap=true", "--set",
-                     'body.upper.mesh="out/upper.mesh"', "--set", 'body.lower.mesh="out/lower.mesh"')
-        again = json.loads(self.read("again/summary.json"))
+        # The nonmortar side is chosen on the first meshes; the last ones may have another finer side.
+        def again_with(*settings):
+            self.mortier("run", "scene.toml", "--out", "again", "--quiet", *settings)
+            return json.loads(self.read("again/summary.json"))
+
+        def nonmortar(of):
+            return of["interfaces"][0]["nonmortar"]
+        self.assertEqual(nonmortar(again_with()), nonmortar(summary))
+        last = ["--set", 'body.upper.mesh="out/upper.mesh"', "--set", 'body.lower.mesh="out/lower.mesh"']
+        again = again_with(*last)
+        if nonmortar(again) != nonmortar(summary):
+            again = again_with(*last, "--set", "contact.swap=true")
         self.assertEqual(again["dofs"], summary["dofs"])
         self.assertAlmostEqual(again["accuracy"]["energy_error"]/accuracy["energy_error"], 1, delta=1e-6)
 
