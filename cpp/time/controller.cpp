@@ -312,7 +312,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
-                         flows_ && !isShortest(state.time, k) && (rough_ || taker.flowsWithin());
+                         flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
     const double twice = std::exp2(tableau(plan_.scheme).stages.size());  // the error of a step twice as long
     if (looksOn) multiply(step.judgement.local, 1 / twice);
