@@ -176,11 +176,11 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
-  const ControllerMemory& own = memory_.controller;
-  const bool ofStress =
-      relative({norms.stress, 0, 0}, own.scale) > relative({0, norms.displacement, 0}, own.scale);
+  const ErrorNorms& scale = memory_.controller.scale;
+  const bool ofStress = relative({norms.stress, 0, 0}, scale) > relative({0, norms.displacement, 0}, scale);
   if (norms.stress > change && ofStress) multiply(result.local, change / norms.stress);
   norms.stress = std::min(norms.stress, change);
+  const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
   result.change = relative({change, 0, 0}, own.scale);
   const double error = result.size / own.local;
