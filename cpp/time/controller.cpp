@@ -176,11 +176,11 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
-  const ControllerMemory& own = memory_.controller;
-  const bool ofStress =
-      relative({norms.stress, 0, 0}, own.scale) > relative({0, norms.displacement, 0}, own.scale);
+  const ErrorNorms& scale = memory_.controller.scale;
+  const bool ofStress = relative({norms.stress, 0, 0}, scale) > relative({0, norms.displacement, 0}, scale);
   if (norms.stress > change && ofStress) multiply(result.local, change / norms.stress);
   norms.stress = std::min(norms.stress, change);
+  const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
   result.change = relative({change, 0, 0}, own.scale);
   const double error = result.size / own.local;
@@ -312,7 +312,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
-                         flows_ && !isShortest(state.time, k) && (rough_ || taker.flowsWithin());
+                         flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
     const double twice = std::exp2(tableau(plan_.scheme).stages.size());  // the error of a step twice as long
     if (looksOn) multiply(step.judgement.local, 1 / twice);

@@ -169,11 +169,6 @@ void StepTaker::limit(const Fields& rates, Fields& missed) const {
     }
 }
 
-bool StepTaker::flowsWithin() const {
-  const Fields rates = stageRates();
-  return model_.any(!noneHere(startingRates()) || !std::all_of(rates.begin(), rates.end(), noneHere));
-}
-
 StepError StepTaker::localError() {
   const size_t stages = tableau_.stages.size();
   const Fields rates = stageRates();

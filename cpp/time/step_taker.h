@@ -44,9 +44,6 @@ class StepTaker {
   StepError localError();
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   StepError carried(const std::vector<Matrix>& strain);
-  /// Whether any point flows in the state or at a stage of the last attempt: where none does bodies have no
-  /// memory of the step.
-  [[nodiscard]] bool flowsWithin() const;
   /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
   /// Whether any contact opens, closes, sticks or slips there that did not in the state.

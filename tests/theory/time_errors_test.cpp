@@ -89,19 +89,6 @@ TEST(TimeErrors, creepUnderAConstantLoadIsSeen) {
   }
 }
 
-// What does not flow has no memory of how its load turned.
-TEST(TimeErrors, stepsWithoutFlowAreNotRepeated) {
-  const auto material = perzynaMaterial({100, 0.3}, {1, 1e3, Projection::frobenius});
-  const auto path = [](double t) { return -std::abs(std::fmod(4 * t, 1.0) - 0.5); };
-  const Case of = blocks(material, false, path, Scheme::sdirk2, 1e-3);
-  State state = initialState(of.model);
-  const RunReport run = runWith(of.model, state, of.plan);
-  print("below yield", run);
-  std::cout << "\n";
-  EXPECT_EQ(run.status, Status::converged) << run.reason;
-  EXPECT_LE(run.iterations - run.pilotIterations, 2 * (run.steps + run.rejected));
-}
-
 // No pair of steps lies within the two neighbouring numbers of a jump.
 TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
   const auto material = perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius});
