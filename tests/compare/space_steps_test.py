@@ -133,8 +133,8 @@ class SpaceSteps(InFolder):
         self.assertRegex(said, r"expected a datum that can be sampled in time: at \(.*, .*, 1\) it varies")
 
     def test_the_tolerance_is_kept(self):
-        """Against equal fine steps. An energy is off by twice what the stress is, the displacement of a corner
-        by somewhat more than the mean."""
+        """Against equal fine steps. An energy is off by twice what the stress is, the displacement of a
+        corner by somewhat more than the mean."""
         for degree, law in ((1, "viscosity = 1, yield_stress = 1.5"),
                             (2, 'law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3')):
             fine = PRESSED.format(degree=degree, law=law, scheme="sdirk2", time="steps = 320")
