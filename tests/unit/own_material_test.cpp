@@ -28,7 +28,11 @@ auto mises(const Tensor& s) {
 template <class Tensor, class Number>
 Tensor alongDeviator(const Tensor& s, const Number& factor) {
   const Number mean = (s.c11 + s.c22 + s.c33) / 3;
-  Tensor result{factor * (s.c11 - mean), factor * (s.c22 - mean), factor * s.c12, factor * (s.c33 - mean)};
+  Tensor result{};
+  result.c11 = factor * (s.c11 - mean);
+  result.c22 = factor * (s.c22 - mean);
+  result.c12 = factor * s.c12;
+  result.c33 = factor * (s.c33 - mean);
   if constexpr (requires { s.c13; }) {
     result.c13 = factor * s.c13;
     result.c23 = factor * s.c23;
@@ -72,7 +76,11 @@ struct OwnSolid {
     const double shear = elasticity.young / (1 + elasticity.poisson);
     const Tensor rate = alongDeviator(s, Number(1 / (shear * law.relaxationTime)));
     const Tensor still = alongDeviator(e, Number(g / law.relaxationTime));
-    Tensor result{rate.c11 - still.c11, rate.c22 - still.c22, rate.c12 - still.c12, rate.c33 - still.c33};
+    Tensor result{};
+    result.c11 = rate.c11 - still.c11;
+    result.c22 = rate.c22 - still.c22;
+    result.c12 = rate.c12 - still.c12;
+    result.c33 = rate.c33 - still.c33;
     if constexpr (requires { s.c13; }) {
       result.c13 = rate.c13 - still.c13;
       result.c23 = rate.c23 - still.c23;
@@ -176,7 +184,9 @@ TEST(OwnMaterial, equalsTheBuiltInLaw) {
         own->viscoplasticRate(stress, rate, &total);
         builtIn->viscoplasticRate(stress, expectedRate, &total);
         EXPECT_LE((rate - expectedRate).norm(), 1e-12 * (expectedRate.norm() + stress.norm() / 200)) << name;
-        if (n < 6) EXPECT_NEAR(own->outOfPlane({1, 2, 3}, 0), builtIn->outOfPlane({1, 2, 3}, 0), 1e-15);
+        if (n < 6) {
+          EXPECT_NEAR(own->outOfPlane({1, 2, 3}, 0), builtIn->outOfPlane({1, 2, 3}, 0), 1e-15);
+        }
       }
   }
 }
