@@ -306,7 +306,7 @@ TEST(OwnMaterial, theTangentOfSixComponentsIsTheirDerivative) {
   const auto field = [&](double size) {
     return Matrix(Matrix::NullaryExpr(6, 1, [&] { return size * normal(random); }));
   };
-  for (const double weight : {1e-4, 1e-2, 0.1})
+  for (const double weight : {1e-4, 1e-3, 1e-2})
     for (int trial = 0; trial < 5; ++trial) {
       const Matrix stress0 = field(1);
       const Matrix strain0 = field(0.01);
