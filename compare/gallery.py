@@ -282,6 +282,8 @@ GALLERY += [
     Entry("shells", [Number("mean contact pressure over Lame's",
                             lambda run: shells_pressure(run) / 0.6089743589743589, 1, 1e-2,
                             "the mesh: flat triangles on spheres")], 20),
+    Entry("known-end", [Number("contact force", lambda run: run.scalars["contact_force"], 0.192281622165,
+                               5e-3, "the mesh: 7 elements in contact")], 0.05),
     Entry("round-punch", [Number("displacement over F (1 - nu^2)/(2 a E)",
                                  lambda run: quantity(run, "down") / -0.00455, 1, 1e-2, "the mesh")], 50),
     Entry("ball", [Number("peak pressure over Hertz's", ball_peak, 1, 1e-2, "the mesh: 10 elements")], 1,
