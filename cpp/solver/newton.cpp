@@ -21,17 +21,10 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   constexpr double falls = 0.25;
   constexpr double rounded = 1e-15;
   const std::vector<Body>& bodies = system.model().bodies;
-  // Where points flow by far more than they are strained elastically, what rounding leaves of the law may be
-  // some tolerances.
-  constexpr double standstill = 10;
-  const double most = std::max(balanceTolerance, limits.tolerance * 1e-2);  // force balance
-  const double near =
-      limits.tolerance <= system.options().tolerance ? standstill * limits.tolerance : limits.tolerance;
   bool polish = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.axisymmetric(); });
   int outOfBalance = 0;
   int corrections = 0;
   double balance = NAN;  // of the last iterate on the law
-  double lastResidual = NAN;
   StepOutcome outcome;
   prescribe(system.model(), step, iterate);
   StepSystem::Linearised linearised =
@@ -39,16 +32,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   while (true) {
     const double residual = linearised.residual();
     const bool far = residual > diverged && !limits.shortens;
-    const bool ends = outcome.iterations == limits.iterations + corrections;
-    if (ends && residual <= near && lastResidual <= near && residual > falls * lastResidual) {
-      const Certificate certificate = system.certify(step, iterate, residual, false);
-      if (certificate.forceBalance <= most) {
-        outcome.converge(certificate);
-        return outcome;
-      }
-    }
-    lastResidual = residual;
-    if (ends || !std::isfinite(residual) || (far && outcome.iterations >= 2) ||
+    if (outcome.iterations == limits.iterations + corrections || !std::isfinite(residual) ||
+        (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
       std::ostringstream text;
       text << "Newton's method did not converge in " << counted(outcome.iterations, "iteration")
@@ -85,7 +70,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     if (balance > roundedInRings && outcome.iterations < limits.iterations + corrections &&
         std::exchange(polish, false))
       continue;
-    if (balance <= most) {
+    if (balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
       outcome.converge(certificate);
       return outcome;
     }

@@ -19,8 +19,6 @@ ON_THE_AXIS = 2760
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
 RINGING = 287
-# It rings at 1e11 yield stresses: rounding leaves more than a tolerance of the law.
-ROUNDED = 282
 # The error of a step is told too large until it is as short as time resolves,
 # where rounding makes it a little longer.
 SHORTEST = 275
@@ -48,7 +46,7 @@ SECONDS = 10
 class RandomScenes(unittest.TestCase):
     def test_every_scene_ends_with_a_result_or_an_unheld_motion(self):
         results = explore(PROGRAM, FIRST, COUNT, SECONDS)
-        for seed in (MOVED, RINGING, ROUNDED, SHORTEST, OVERLAP, UNRESOLVED, FOLLOWING):
+        for seed in (MOVED, RINGING, SHORTEST, OVERLAP, UNRESOLVED, FOLLOWING):
             results += explore(PROGRAM, seed, 1, SECONDS)
         for result in results:
             with self.subTest(seed=result["seed"]):

@@ -33,10 +33,12 @@ std::vector<std::string> shippedScenes() {
   return scenes;
 }
 
-/// Force and moment about the origin.
+/// Force and moment about the origin; in space the force alone.
 using Wrench = Eigen::Vector3d;
 
-Wrench wrenchOf(const Vector& forces, const std::vector<Point>& places) {
+Wrench wrenchOf(const Vector& forces, const Body& body) {
+  if (body.space() != nullptr) return forces.reshaped(3, forces.size() / 3).rowwise().sum();
+  const std::vector<Point>& places = body.elementNodes().places;
   Wrench sum = Wrench::Zero();
   for (size_t v = 0; v < places.size(); ++v) {
     const Point f = forces.segment<2>(2 * static_cast<Eigen::Index>(v));
@@ -48,7 +50,8 @@ Wrench wrenchOf(const Vector& forces, const std::vector<Point>& places) {
 /// As users are told it.
 Wrench quantityOf(const Model& model, const State& state, Kind kind, int body, int label) {
   std::vector<Quantity> quantities;
-  for (const Component component : {Component::x, Component::y, Component::moment})
+  const Component third = model.bodies[body].space() != nullptr ? Component::z : Component::moment;
+  for (const Component component : {Component::x, Component::y, third})
     quantities.push_back({"w", kind, body, label, component});
   const std::vector<double> values = evaluate(quantities, model, state);
   return {values[0], values[1], values[2]};
@@ -57,19 +60,20 @@ Wrench quantityOf(const Model& model, const State& state, Kind kind, int body, i
 /// The largest sum of the forces on a body, over their size; the contact forces of all bodies are added up.
 double outOfBalance(const Model& model, const State& state, int b, Wrench& contacts, double& size) {
   const Body& body = model.bodies[b];
-  const std::vector<Point>& places = body.elementNodes().places;
   const Vector load = body.load(state.time);
-  Wrench sum = wrenchOf(load, places);
+  Wrench sum = wrenchOf(load, body);
   size += load.cwiseAbs().sum() +
           contactForces(model, state.contactForce, state.frictionForce, b).cwiseAbs().sum();
   std::set<int> held;
   for (const PrescribedDisplacement& support : body.conditions().displacements)
     if (!body.rigid()) held.insert(support.label);
+  if (body.space() != nullptr)
+    for (const SpaceCondition& support : body.space()->conditions().displacements) held.insert(support.label);
   if (body.rigid()) held.insert(0);  // whatever the label
   for (const int label : held) {
     const Wrench reaction = quantityOf(model, state, Kind::reaction, b, label);
     sum += reaction;
-    size += reaction.head<2>().cwiseAbs().sum();
+    size += reaction.head(body.space() != nullptr ? 3 : 2).cwiseAbs().sum();
   }
   std::set<int> sides;
   for (const ContactInterface& interface : model.interfaces)
@@ -80,8 +84,9 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
     sum += contact;
     contacts += contact;
   }
+  if (body.space() != nullptr) return sum.cwiseAbs().maxCoeff();
   double reach = 0;
-  for (const Point& x : places) reach = std::max(reach, x.norm());
+  for (const Point& x : body.elementNodes().places) reach = std::max(reach, x.norm());
   sum[2] /= reach;
   if (body.axisymmetric()) sum[0] = sum[2] = 0;  // the ring itself bears what points outwards
   return sum.cwiseAbs().maxCoeff();
@@ -133,7 +138,8 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
           euler[b] += product(model.bodies[b], end.stress, flowed);
           worstGain = std::max(worstGain, begin.work.dissipated - end.work.dissipated);
         }
-        worstForce = std::max({worstForce, sum, contacts.head<2>().cwiseAbs().maxCoeff()});
+        worstForce = std::max(
+            {worstForce, sum, contacts.head(scene.description.inSpace() ? 3 : 2).cwiseAbs().maxCoeff()});
         largestForce = std::max(largestForce, size);
         before = now;
       });
