@@ -1,4 +1,4 @@
-"""Laws of one's own in space, as expressions of six components: beside the built-in laws that they repeat,
+"""User-defined laws in space, as expressions of six components: beside the built-in laws that they repeat,
 and beside plane strain."""
 import csv
 import json
