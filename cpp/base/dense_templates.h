@@ -21,9 +21,13 @@ using MatrixReader = const_blas_data_mapper<double, Index, storage>;
   extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;                                         \
   extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,      \
                                                                                 Eigen::VectorXd&) const;     \
+  extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&,      \
+                                                                                Eigen::MatrixXd&) const;     \
   extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;                             \
   extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(                 \
       const Eigen::VectorXd&, Eigen::VectorXd&) const;                                                       \
+  extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(                 \
+      const Eigen::MatrixXd&, Eigen::MatrixXd&) const;                                                       \
   namespace Eigen::internal {                                                                                \
   extern template struct general_matrix_vector_product<Index, double, MatrixReader<ColMajor>, ColMajor,      \
                                                        false, double, MatrixReader<ColMajor>, false>;        \

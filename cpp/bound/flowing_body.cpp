@@ -1,11 +1,11 @@
 #include "bound/flowing_body.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "base/dense_templates.h"
 #include "base/interrupt.h"
 #include "bound/flow_potential.h"
 #include "material/stress.h"
@@ -160,7 +160,7 @@ FlowingBody::FlowingBody(const Body& own) : own_(own) {
     material.elasticStrain(Vector::Unit(n, k).replicate(1, own.points()), strain);
     for (int i = 0; i < own.points(); ++i) compliances_[i].col(k) = strain.col(i);
   }
-  for (const PointMatrix& each : compliances_) moduli_.emplace_back(each.inverse());
+  for (const PointMatrix& each : compliances_) moduli_.emplace_back(Matrix(each).inverse());
 }
 
 RunFields FlowingBody::fields(const BodyState& state, const LoadedBody& loaded, const Vector& lifted,

@@ -146,15 +146,15 @@ class SpaceRecovery {
       for (int i = 0; i < each; ++i) offsets.push_back(space_.placeOf(each * e + i) - fit.centre);
     for (const SpacePoint& offset : offsets) fit.size = std::max(fit.size, offset.norm());
     const auto rows = static_cast<Eigen::Index>(offsets.size());
-    Eigen::Matrix<double, Eigen::Dynamic, monomials> design(rows, monomials);
-    Eigen::Matrix<double, Eigen::Dynamic, 6> values(rows, 6);
+    Matrix design(rows, monomials);
+    Matrix values(rows, 6);
     for (Eigen::Index i = 0; i < rows; ++i) {
       const SpacePoint x = offsets[i] / fit.size;
       const double weight = each == 1 ? 1 : 1 / x.norm();
       design.row(i) = weight * monomialsAt<monomials>(x);
       values.row(i) = weight * stress_.col(each * elements[i / each] + i % each).template head<6>();
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, monomials>> solver;
+    Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
     constexpr double dependent = 1e-2;  // what few points hardly tell is left out, a constant is kept
     solver.setThreshold(dependent);
     solver.compute(design);
@@ -174,14 +174,14 @@ class SpaceRecovery {
 /// Integral of N_a N_b over the volume of an element, N its shape functions, as L L'.
 template <class Element>
 Eigen::Matrix<double, Element::nodes, Element::nodes> factorOfMass() {
-  Eigen::Matrix<double, Element::nodes, Element::nodes> mass;
-  mass.setZero();
+  Matrix mass = Matrix::Zero(Element::nodes, Element::nodes);
   for (const auto& [at, weight] : tetrahedronRule()) {
     const auto N = Element::shapes({1 - at.sum(), at.x(), at.y(), at.z()});
     const Eigen::Map<const Eigen::Vector<double, Element::nodes>> shapes(N.data());
     mass += 6 * weight * shapes * shapes.transpose();
   }
-  return mass.llt().matrixL();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(mass);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
 }
 
 /// Columns: the shape functions of the stress of an element at its nodes.
@@ -209,7 +209,7 @@ ErrorEstimate estimateOn(const Body& body, const Matrix& stress, Threads& thread
   constexpr int nodes = Element::nodes;
   const SpaceRecovery<Element> recovery(body, stress, threads);
   const auto L = factorOfMass<Element>();
-  const auto E = (stressAtNodes<Element>() * L).eval();
+  const auto E = stressAtNodes<Element>().lazyProduct(L).eval();
   const auto elements = static_cast<int>(body.elements());
   ErrorEstimate result{Vector::Zero(elements), 0};
   Vector energies = Vector::Zero(elements);
@@ -217,7 +217,7 @@ ErrorEstimate estimateOn(const Body& body, const Matrix& stress, Threads& thread
   Matrix strain(stress.rows(), body.points());
   forEachBlock(elements, threads, [&](int begin, int end) {
     std::vector<typename SpaceRecovery<Element>::Stresses> modes(end - begin);
-    for (int e = begin; e < end; ++e) modes[e - begin] = recovery.at(e) * L;
+    for (int e = begin; e < end; ++e) modes[e - begin] = recovery.at(e).lazyProduct(L);
     const auto addEnergies = [&](Vector& sums) {
       for (int first = 0; first < nodes; first += each) {
         const int count = std::min(each, nodes - first);
@@ -232,7 +232,8 @@ ErrorEstimate estimateOn(const Body& body, const Matrix& stress, Threads& thread
       }
     };
     addEnergies(energies);
-    for (int e = begin; e < end; ++e) modes[e - begin] -= stress.template block<6, each>(0, each * e) * E;
+    for (int e = begin; e < end; ++e)
+      modes[e - begin] -= stress.template block<6, each>(0, each * e).lazyProduct(E);
     addEnergies(result.error);
   });
   result.energy = std::accumulate(energies.begin(), energies.end(), 0.0);

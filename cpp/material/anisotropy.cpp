@@ -11,13 +11,56 @@
 namespace mortier {
 namespace {
 
+// Linearised, the law of any elasticity (below) has H = H0 + F F': the change of stress and the moduli of the
+// isotropic law are corrected by
+//   H^-1 = H0^-1 - B M^-1 B',   B = H0^-1 F,   M = 1 + F'B,
+// all of positive matrices, whatever flows.
+template <int n>
+void soften(const Eigen::Matrix<double, n, n>& F, PointAnswer<n>& answer) {
+  std::array<Lanes, n* n>& D = answer.moduli;  // column major, as all here
+  std::array<Lanes, n * n> B;
+  std::array<Lanes, n*(n + 1)> X;  // F'D and F' change, then M^-1 of it
+  std::array<Lanes, n * n> M;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      B[n * j + i] = 0;
+      X[n * j + i] = 0;
+      for (int k = 0; k < n; ++k) {
+        B[n * j + i] += D[n * k + i] * F(k, j);
+        X[n * j + i] += F(k, i) * D[n * j + k];
+      }
+    }
+  for (int i = 0; i < n; ++i) {
+    X[n * n + i] = 0;
+    for (int k = 0; k < n; ++k) X[n * n + i] += F(k, i) * answer.change[k];
+  }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      M[n * j + i] = i == j ? 1 : 0;
+      for (int k = 0; k < n; ++k) M[n * j + i] += F(k, i) * B[n * j + k];
+    }
+  for (int k = 0; k < n; ++k)  // Gauss; M is positive
+    for (int i = k + 1; i < n; ++i) {
+      const Lanes factor = M[n * k + i] / M[n * k + k];
+      for (int j = k + 1; j < n; ++j) M[n * j + i] -= factor * M[n * j + k];
+      for (int j = 0; j <= n; ++j) X[n * j + i] -= factor * X[n * j + k];
+    }
+  for (int j = 0; j <= n; ++j)
+    for (int k = n - 1; k >= 0; --k) {
+      for (int i = k + 1; i < n; ++i) X[n * j + k] -= M[n * i + k] * X[n * j + i];
+      X[n * j + k] /= M[n * k + k];
+    }
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i < n; ++i) {
+      Lanes& entry = j < n ? D[n * j + i] : answer.change[i];
+      for (int k = 0; k < n; ++k) entry -= B[n * k + i] * X[n * j + k];
+    }
+}
+
 // A law with any symmetric elliptic E made of the same law with an isotropic one. With E0 = c 1, c the
 // largest eigenvalue of E (isotropic, nu = 0), E^-1 = E0^-1 + F F', and
 //   E0^-1 (s - s0) + weight G(s) = strain - F F' (s - s0)
-// is the law of E. Linearised, H = H0 + F F': the change of stress and the moduli of the isotropic law are
-// corrected by
-//   H^-1 = H0^-1 - B M^-1 B',   B = H0^-1 F,   M = 1 + F'B,
-// all of positive matrices, whatever flows.
+// is the law of E.
 template <class Law>
 class OfAnyElasticity {
   static constexpr int n = Law::components;
@@ -61,7 +104,7 @@ class OfAnyElasticity {
     moved = times(excess_, moved);
     for (int k = 0; k < n; ++k) point.strain[k] -= moved[k];
     PointAnswer<n> answer = law_.linearise(point);
-    soften(answer);
+    soften<n>(F_, answer);
     for (int k = 0; k < n; ++k) answer.predictor[k] = point.stress[k] + answer.change[k];
     return answer;
   }
@@ -80,47 +123,6 @@ class OfAnyElasticity {
       for (int k = 1; k < n; ++k) y[i] += matrix(i, k) * x[k];
     }
     return y;
-  }
-
-  void soften(PointAnswer<n>& answer) const {
-    std::array<Lanes, n* n>& D = answer.moduli;  // column major, as all here
-    std::array<Lanes, n * n> B;
-    std::array<Lanes, n*(n + 1)> X;  // F'D and F' change, then M^-1 of it
-    std::array<Lanes, n * n> M;
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        B[n * j + i] = 0;
-        X[n * j + i] = 0;
-        for (int k = 0; k < n; ++k) {
-          B[n * j + i] += D[n * k + i] * F_(k, j);
-          X[n * j + i] += F_(k, i) * D[n * j + k];
-        }
-      }
-    for (int i = 0; i < n; ++i) {
-      X[n * n + i] = 0;
-      for (int k = 0; k < n; ++k) X[n * n + i] += F_(k, i) * answer.change[k];
-    }
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        M[n * j + i] = i == j ? 1 : 0;
-        for (int k = 0; k < n; ++k) M[n * j + i] += F_(k, i) * B[n * j + k];
-      }
-    for (int k = 0; k < n; ++k)  // Gauss; M is positive
-      for (int i = k + 1; i < n; ++i) {
-        const Lanes factor = M[n * k + i] / M[n * k + k];
-        for (int j = k + 1; j < n; ++j) M[n * j + i] -= factor * M[n * j + k];
-        for (int j = 0; j <= n; ++j) X[n * j + i] -= factor * X[n * j + k];
-      }
-    for (int j = 0; j <= n; ++j)
-      for (int k = n - 1; k >= 0; --k) {
-        for (int i = k + 1; i < n; ++i) X[n * j + k] -= M[n * i + k] * X[n * j + i];
-        X[n * j + k] /= M[n * k + k];
-      }
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i < n; ++i) {
-        Lanes& entry = j < n ? D[n * j + i] : answer.change[i];
-        for (int k = 0; k < n; ++k) entry -= B[n * k + i] * X[n * j + k];
-      }
   }
 
   Law law_;

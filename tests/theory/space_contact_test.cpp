@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "material/space.h"
+#include "solver/threads_for.h"
 #include "theory/extruded_contact.h"
 #include "time/space_error.h"
 
@@ -113,6 +114,34 @@ TEST(SpaceContact, compressionIsExact) {
         const double found = state.bodies[0].displacement[3 * static_cast<Eigen::Index>(v) + 2];
         EXPECT_NEAR(found, 2 * strain, 1e-12 * std::abs(strain));
       }
+  }
+}
+
+TEST(SpaceContact, threadsChangeNoBit) {
+  Model model;
+  const std::vector<SpaceCondition> rollers{{left, spaceX, steady(0)}, {front, spaceY, steady(0)}};
+  std::vector<SpaceCondition> held = rollers;
+  held.push_back({bottom, spaceZ, steady(0)});
+  const auto pressed = [](const SpacePoint& x, double t) { return -10 * t * (1 + x.x() * x.y()); };
+  const auto material = spacePerzynaMaterial({1000, 0.3}, {10, 1});
+  model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {6, 6, 6}}), material,
+                            SpaceConditions{rollers, {{top, spaceZ, pressed}}}, 2);
+  model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {7, 7, 7}}), material,
+                            SpaceConditions{held, {}}, 2);
+  addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
+  ASSERT_EQ(threadsFor(model, 3), 3);
+  const auto with = [&](int threads) {
+    SolverOptions options;
+    options.threads = threads;
+    return scenes::run(model, 0.3, 2, options);
+  };
+  const auto one = with(1);
+  const auto three = with(3);
+  ASSERT_EQ(one.report.status, Status::converged) << one.report.reason;
+  EXPECT_EQ(one.report.iterations, three.report.iterations);
+  for (size_t b = 0; b < 2; ++b) {
+    EXPECT_TRUE(one.state.bodies[b].stress == three.state.bodies[b].stress);
+    EXPECT_TRUE(one.state.bodies[b].displacement == three.state.bodies[b].displacement);
   }
 }
 
