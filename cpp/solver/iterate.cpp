@@ -123,17 +123,18 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
   return result;
 }
 
-std::vector<double> frictionWork(const Model& model, const Iterate& solution) {
+std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution) {
   const std::vector<Vector> slip = slips(model, solution);
   std::vector<double> work(slip.size(), 0);
   for (size_t k = 0; k < slip.size(); ++k)
     for (Eigen::Index i = 0; i < slip[k].size(); ++i)
-      if (solution.slipping[k][i] != 0) work[k] += std::max(0.0, solution.frictionForce[k][i] * slip[k][i]);
+      if (solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0)
+        work[k] += std::max(0.0, (state0.frictionForce[k][i] + solution.frictionForce[k][i]) / 2 * slip[k][i]);
   return work;
 }
 
 void addFrictionWork(const Model& model, const Iterate& solution, State& state) {
-  const std::vector<double> work = frictionWork(model, solution);
+  const std::vector<double> work = frictionWork(model, state, solution);
   for (size_t k = 0; k < work.size(); ++k) {
     state.frictionWorkOf[k] += work[k];
     state.frictionWork += work[k];

@@ -7,7 +7,7 @@
 namespace mortier {
 
 SlipAndWork StepTaker::slip() const {
-  const std::vector<double> work = frictionWork(model_, solutions_.back());
+  const std::vector<double> work = frictionWork(model_, state_, solutions_.back());
   std::vector<Matrix> flow = ratesOf(solutions_.back(), 1);
   if (!shift_.empty()) addTo(flow, 1, shift_);
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
