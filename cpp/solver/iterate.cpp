@@ -123,13 +123,21 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
   return result;
 }
 
+std::vector<Vector> slidingForces(const State& state0, const Iterate& solution) {
+  std::vector<Vector> forces = solution.frictionForce;
+  for (size_t k = 0; k < forces.size(); ++k)
+    for (Eigen::Index i = 0; i < forces[k].size(); ++i) {
+      const bool slides = solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0;
+      forces[k][i] = slides ? (state0.frictionForce[k][i] + forces[k][i]) / 2 : 0;
+    }
+  return forces;
+}
+
 std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution) {
   const std::vector<Vector> slip = slips(model, solution);
-  std::vector<double> work(slip.size(), 0);
-  for (size_t k = 0; k < slip.size(); ++k)
-    for (Eigen::Index i = 0; i < slip[k].size(); ++i)
-      if (solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0)
-        work[k] += std::max(0.0, (state0.frictionForce[k][i] + solution.frictionForce[k][i]) / 2 * slip[k][i]);
+  const std::vector<Vector> force = slidingForces(state0, solution);
+  std::vector<double> work;
+  for (size_t k = 0; k < slip.size(); ++k) work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
   return work;
 }
 

@@ -13,6 +13,13 @@ SlipAndWork StepTaker::slip() const {
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
 }
 
+double StepTaker::workAlong(const std::vector<Vector>& slip) const {
+  const std::vector<Vector> force = slidingForces(state_, solutions_.back());
+  double work = 0;
+  for (size_t k = 0; k < slip.size(); ++k) work += force[k].dot(slip[k]);
+  return work;
+}
+
 bool StepTaker::contactChanges() const {
   const Iterate& end = solutions_.back();
   for (size_t k = 0; k < state_.contactForce.size(); ++k)
