@@ -87,7 +87,8 @@ double inner(const Body& body, const Matrix& stress, const Matrix& strain) {
 }
 
 // Whatever the lengths of the steps: the plate's work is the change of the elastic energy, what flow and
-// friction dissipate, and what gaps take that close or open, but for what is left out where a slip begins in a step.
+// friction dissipate, and what gaps take that close or open, but for what is left out where a slip begins
+// in a step.
 TEST(SlipControl, keepsTheEnergy) {
   Body upper("upper", square(0, 5), perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius}),
              {{{top, 0, [](double, double, double t) { return along(t); }},
@@ -160,8 +161,8 @@ TEST(SlipControl, keepsTheEnergy) {
   EXPECT_GT(flowed, 0.01 * largest);
 }
 
-// What sticks until the contact opens slips just before that, and loses what shear has stored. Steps that pass
-// from sticking to open contact know nothing of it.
+// What sticks until the contact opens slips just before that, and loses what shear has stored: steps that pass
+// from sticking to open contact end without a force.
 TEST(SlipControl, seesWhatFrictionDissipatesAsContactOpens) {
   const auto lifted = [](double t) { return t <= 2 ? down(t) : -0.05 + 0.1 * (t - 2); };
   Body upper("upper", square(0, 3), elasticMaterial({100, 0.3}),
