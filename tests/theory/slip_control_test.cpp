@@ -161,8 +161,8 @@ TEST(SlipControl, keepsTheEnergy) {
   EXPECT_GT(flowed, 0.01 * largest);
 }
 
-// What sticks until the contact opens slips just before that, and loses what shear has stored: steps that pass
-// from sticking to open contact end without a force.
+// What sticks until the contact opens slips just before that, and loses what shear has stored. Steps that
+// pass from sticking to open contact end without a force.
 TEST(SlipControl, seesWhatFrictionDissipatesAsContactOpens) {
   const auto lifted = [](double t) { return t <= 2 ? down(t) : -0.05 + 0.1 * (t - 2); };
   Body upper("upper", square(0, 3), elasticMaterial({100, 0.3}),
