@@ -133,22 +133,11 @@ std::vector<Vector> slidingForces(const State& state0, const Iterate& solution) 
   return forces;
 }
 
-// Where a node that stuck begins to slip its force is at its bound, and not smaller than at both ends.
 std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution) {
   const std::vector<Vector> slip = slips(model, solution);
-  std::vector<Vector> force = slidingForces(state0, solution);
+  const std::vector<Vector> force = slidingForces(state0, solution);
   std::vector<double> work;
-  for (size_t k = 0; k < slip.size(); ++k) {
-    const Vector bound =
-        slip[k].size() > 0 ? model.interfaces[k].frictionBound(state0.contactForce[k]) : slip[k];
-    for (Eigen::Index i = 0; i < slip[k].size(); ++i) {
-      if (solution.slipping[k][i] == 0 || state0.slipping[k][i] == solution.slipping[k][i]) continue;
-      const double end = solution.frictionForce[k][i];
-      const double largest = std::max(std::abs(state0.frictionForce[k][i]), std::abs(end));
-      force[k][i] = (end + std::copysign(std::min(bound[i], largest), end)) / 2;
-    }
-    work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
-  }
+  for (size_t k = 0; k < slip.size(); ++k) work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
   return work;
 }
 

@@ -139,7 +139,7 @@ double energyOf(const Model& model, const std::vector<Matrix>& stress) {
 }
 
 // In every step the plate's work is the change of the elastic energy, friction's and that of gaps that close
-// or open, but for what is left out where a slip begins in a step.
+// or open; friction's is not negative.
 TEST(Sliding, energyIsKept) {
   for (const CouplingKind coupling :
        {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::weighted, CouplingKind::coarsened})
@@ -156,7 +156,6 @@ TEST(Sliding, energyIsKept) {
       std::vector<double> forceBefore(2, 0);
       double worst = 0;
       double largest = 0;
-      double off = 0;
       int stuck = 0;
       int slipped = 0;
       State state = before;
@@ -174,8 +173,7 @@ TEST(Sliding, energyIsKept) {
             EXPECT_GE(friction, 0);
             largest = std::max(largest, energyOf(model, {now.bodies[0].stress, now.bodies[1].stress}));
             const double left = work - energy - friction - closing;
-            off += std::abs(left);
-            if (now.slipping == before.slipping) worst = std::max(worst, std::abs(left));
+            worst = std::max(worst, std::abs(left));
             forceBefore = force;
             for (size_t i = 0; i < now.slipping[0].size(); ++i)
               if (now.contactForce[0][static_cast<Eigen::Index>(i)] > 0)
@@ -184,7 +182,6 @@ TEST(Sliding, energyIsKept) {
           });
       ASSERT_EQ(report.status, Status::converged) << report.reason;
       EXPECT_LE(worst, 1e-11 * largest) << nameOf(coupling);
-      EXPECT_LE(off, 0.02 * state.frictionWork) << nameOf(coupling);
       EXPECT_LE(report.worst.friction, 1e-12);
       EXPECT_GT(state.frictionWork, 0.01 * largest);
       EXPECT_GT(stuck, 20);

@@ -48,7 +48,7 @@ TEST(SlipControl, findsTheStepsOfARoughPunch) {
   const Result fine = run(model, 1, 600);
   ASSERT_EQ(fine.report.status, Status::converged) << fine.report.reason;
   const double exact = fine.state.frictionWork;
-  EXPECT_GT(once.state.frictionWork, 5 * exact);
+  EXPECT_GT(once.state.frictionWork, 3 * exact);
   EXPECT_LT(stuck(once.state), 0.7 * stuck(fine.state));
   double coarser = 0;
   for (const double tolerance : {0.2, 0.05}) {
@@ -87,8 +87,7 @@ double inner(const Body& body, const Matrix& stress, const Matrix& strain) {
 }
 
 // Whatever the lengths of the steps: the plate's work is the change of the elastic energy, what flow and
-// friction dissipate, and what gaps take that close or open, but for what is left out where a slip begins
-// in a step.
+// friction dissipate, and what gaps take that close or open.
 TEST(SlipControl, keepsTheEnergy) {
   Body upper("upper", square(0, 5), perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius}),
              {{{top, 0, [](double, double, double t) { return along(t); }},
@@ -114,7 +113,6 @@ TEST(SlipControl, keepsTheEnergy) {
   double worst = 0;
   double largest = 0;
   double flowed = 0;
-  double off = 0;
   TimePlan plan = controlled(3, 0.05, Scheme::backwardEuler);
   plan.breaks = {1, 2};
   const RunReport report = runWith(model, state, plan, [&](const State& now, const StepReport& step) {
@@ -145,8 +143,7 @@ TEST(SlipControl, keepsTheEnergy) {
       energy += inner(body, now.bodies[b].stress, elastic) / 2;
     }
     largest = std::max(largest, energy);
-    off += std::abs(left);
-    if (now.slipping == before.slipping) worst = std::max(worst, std::abs(left));
+    worst = std::max(worst, std::abs(left));
     before = now;
     forceBefore = force;
   });
@@ -155,7 +152,6 @@ TEST(SlipControl, keepsTheEnergy) {
   std::cout << ", balance off by " << worst / largest << ", friction " << state.frictionWork / largest
             << " of the largest energy\n";
   EXPECT_LE(worst, 1e-11 * largest);
-  EXPECT_LE(off, 0.05 * state.frictionWork);
   EXPECT_LE(report.timeError, 0.05);
   EXPECT_GT(state.frictionWork, 0.01 * largest);
   EXPECT_GT(flowed, 0.01 * largest);
