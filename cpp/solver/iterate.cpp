@@ -135,9 +135,14 @@ std::vector<Vector> slidingForces(const State& state0, const Iterate& solution) 
 
 std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution) {
   const std::vector<Vector> slip = slips(model, solution);
-  const std::vector<Vector> force = slidingForces(state0, solution);
+  std::vector<Vector> force = slidingForces(state0, solution);
   std::vector<double> work;
-  for (size_t k = 0; k < slip.size(); ++k) work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
+  for (size_t k = 0; k < slip.size(); ++k) {
+    // Forces of the beginning belong to other rows where these follow the bodies.
+    if (model.interfaces[k].follows() && force[k].size() > 0)
+      force[k] = (force[k].array() != 0).select(solution.frictionForce[k], 0);
+    work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
+  }
   return work;
 }
 
