@@ -23,10 +23,10 @@ void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndW
 }
 
 /// Nodes that slip have no error of their own: they follow the others. What they make up for as they begin to
-/// slip, and as the others carry them on, dissipates.
+/// slip, and as the others carry them on, dissipates; not where rows are others in every step.
 void Controller::carrySlip(const StepTaker& taker, std::vector<Vector> slip) {
   SlipAndWork& own = memory_.controller.slip;
-  own.work += taker.workAlong(slip) - taker.workAlong(own.slip);
+  if (!taker.follows()) own.work += taker.workAlong(slip) - taker.workAlong(own.slip);
   own.slip = std::move(slip);
 }
 
