@@ -98,9 +98,10 @@ double gapWork(const State& state0, const Iterate& solution);
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
-/// What friction dissipates in a step, per interface; the rounding in slips of nodes that stick is none
-/// [J/m].
-std::vector<double> frictionWork(const Model& model, const Iterate& solution);
+/// The mean of the friction forces at both ends of a step where nodes slip or contact opens in it, else 0.
+std::vector<Vector> slidingForces(const State& state0, const Iterate& solution);
+/// What they dissipate in the step, per interface [J/m].
+std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution);
 /// Adds it to what the state has.
 void addFrictionWork(const Model& model, const Iterate& solution, State& state);
 

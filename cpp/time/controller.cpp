@@ -153,7 +153,7 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   addTo(own.slip, 1, missed);
   addTo(own.strain, 1, flowed);
   if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
-  if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
+  if (rough_) carrySlip(taker, taker.slipOf(response));
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
@@ -196,7 +196,7 @@ bool Controller::isShortest(double t, double k) const {
 
 /// What time resolves at t. Relaxation may begin at once, and take no more of the run than that.
 double Controller::leastStep(double t) const {
-  constexpr double little = 1e-12;
+  constexpr double little = 1e-13;
   return little * std::max(std::abs(t), little * (plan_.end - memory_.begin));
 }
 

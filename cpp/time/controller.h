@@ -95,6 +95,7 @@ class Controller {
   [[nodiscard]] double leastStep(double t) const;
   [[nodiscard]] bool isShortest(double t, double k) const;
   [[nodiscard]] bool stepsTooSmall(double t, double k) const;
+  void carrySlip(const StepTaker& taker, std::vector<Vector> slip);
   void add(StepTaker& taker, StepError local, double size, SlipAndWork missed);
 
   const TimePlan& plan_;

@@ -22,6 +22,14 @@ void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndW
   addTo(missed.strain, 1 - std::exp2(taker.errorOrder() - 1), of.local.strain);
 }
 
+/// Nodes that slip have no error of their own: they follow the others. What they make up for as they begin to
+/// slip, and as the others carry them on, dissipates; not where rows are others in every step.
+void Controller::carrySlip(const StepTaker& taker, std::vector<Vector> slip) {
+  SlipAndWork& own = memory_.controller.slip;
+  if (!taker.follows()) own.work += taker.workAlong(slip) - taker.workAlong(own.slip);
+  own.slip = std::move(slip);
+}
+
 Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, Effort effort,
                                               int onsets) {
   Attempt step{end};

@@ -7,10 +7,17 @@
 namespace mortier {
 
 SlipAndWork StepTaker::slip() const {
-  const std::vector<double> work = frictionWork(model_, solutions_.back());
+  const std::vector<double> work = frictionWork(model_, state_, solutions_.back());
   std::vector<Matrix> flow = ratesOf(solutions_.back(), 1);
   if (!shift_.empty()) addTo(flow, 1, shift_);
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
+}
+
+double StepTaker::workAlong(const std::vector<Vector>& slip) const {
+  const std::vector<Vector> force = slidingForces(state_, solutions_.back());
+  double work = 0;
+  for (size_t k = 0; k < slip.size(); ++k) work += force[k].dot(slip[k]);
+  return work;
 }
 
 bool StepTaker::contactChanges() const {

@@ -56,6 +56,8 @@ class StepTaker {
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
   /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
+  /// What the friction of the last attempt dissipates more where its nodes slip so much more [J/m].
+  [[nodiscard]] double workAlong(const std::vector<Vector>& slip) const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
   [[nodiscard]] bool follows() const { return anyFollows(model_); }

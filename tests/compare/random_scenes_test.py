@@ -24,8 +24,8 @@ RINGING = 287
 SHORTEST = 275
 # Bodies overlap at t = 0, and the stress relaxes sooner than a step could end.
 OVERLAP = 831
-# Stresses relax sooner after a turn of the load than time resolves there: no trial meets the tolerance.
-UNRESOLVED = 1082
+# Stresses relax after a turn of the load in a few of the shortest steps that time resolves there.
+SHORT_LIVED = 1082
 # Backward Euler where stresses follow a moved boundary at once.
 FOLLOWING = 1945
 # No method solves a step, unless it is 1e-8 of the run.
@@ -46,14 +46,10 @@ SECONDS = 10
 class RandomScenes(unittest.TestCase):
     def test_every_scene_ends_with_a_result_or_an_unheld_motion(self):
         results = explore(PROGRAM, FIRST, COUNT, SECONDS)
-        for seed in (MOVED, RINGING, SHORTEST, OVERLAP, UNRESOLVED, FOLLOWING):
+        for seed in (MOVED, RINGING, SHORTEST, OVERLAP, SHORT_LIVED, FOLLOWING):
             results += explore(PROGRAM, seed, 1, SECONDS)
         for result in results:
             with self.subTest(seed=result["seed"]):
-                if result["seed"] == UNRESOLVED:
-                    self.assertEqual(result["code"], 1)
-                    self.assertRegex(result["told"], "time.tolerance .* not reached")
-                    continue
                 self.assertIn(result["code"], (0, 3), result["told"])
                 if result["code"] == 3:
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")

@@ -119,6 +119,7 @@ TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
     ++runs;
     good += error <= allowed ? 1 : 0;
     EXPECT_LE(error, 3) << of.name << ", seed " << seed;
+    EXPECT_LE(outcome.friction, allowed) << of.name << ", seed " << seed;
   }
   std::cout << good << " of " << runs << " within " << allowed << " tolerances\n";
   EXPECT_GE(runs, 22);
