@@ -1,4 +1,3 @@
-#include "bound/body_data.h"
 
 #include <algorithm>
 #include <cmath>

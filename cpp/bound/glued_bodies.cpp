@@ -1,4 +1,4 @@
-#include "bound/glued_bodies.h"
+#include "bound/quantity_bound.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "base/printable.h"
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"

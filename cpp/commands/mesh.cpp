@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "base/counted.h"
 #include "base/digits.h"
 #include "base/error.h"
 #include "base/printable.h"

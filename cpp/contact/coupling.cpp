@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contact/row_functions.h"
-#include "mesh/axis.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {

@@ -1,7 +1,7 @@
 // What a body does in every iteration, triangle by triangle.
 
-#include "base/double_double.h"
 #include "base/lanes.h"
+#include "base/two_part_vector.h"
 #include "fem/body.h"
 #include "fem/element.h"
 
@@ -43,7 +43,7 @@ DoubleDouble times(double factor, const DoubleDouble& value) {
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
 //
 // Where the volumetric strain is averaged, p is the sum of the polynomials of the patch less the
-// circumference over sqrt2 (fem/volume_patches.h).
+// circumference over sqrt2 (fem/tangent_assembly.h).
 
 Vector Body::internalForce(const Matrix& stress) const {
   if (space_) return space_->internalForce(stress);

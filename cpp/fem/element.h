@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "base/types.h"
-#include "mesh/edge_element.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 

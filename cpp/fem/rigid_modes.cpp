@@ -8,7 +8,7 @@
 #include "base/dense_templates.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
-#include "mesh/components.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -40,7 +40,7 @@ Frame frameOf(const std::vector<Point>& places, const std::vector<int>& vertices
   return {sum / static_cast<double>(vertices.size()), (upper - lower).maxCoeff() / 2};
 }
 
-/// The components of a mesh that are rigid in themselves (mesh/components.h).
+/// The components of a mesh that are rigid in themselves (mesh/triangle_sides.h).
 struct RigidComponents {
   explicit RigidComponents(const Body& body) : home(body.nodes(), -1) {
     const ElementNodes& nodes = body.elementNodes();

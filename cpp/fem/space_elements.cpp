@@ -4,8 +4,8 @@
 #include <map>
 #include <numbers>
 
-#include "base/double_double.h"
 #include "base/error.h"
+#include "base/two_part_vector.h"
 #include "fem/tetrahedron.h"
 
 namespace mortier {

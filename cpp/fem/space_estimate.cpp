@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/blocks.h"
 #include "base/dense_templates.h"
+#include "base/parallel.h"
 #include "fem/error_estimate.h"
 #include "fem/tetrahedron.h"
 

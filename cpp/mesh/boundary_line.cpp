@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "mesh/label_text.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {

@@ -12,13 +12,12 @@
 #include "base/archive.h"
 #include "base/child_process.h"
 #include "base/error.h"
-#include "mesh/geometry_constants.h"
 #include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
 #include <gmshc.h>
 
-#include "mesh/gmsh_curves.h"
+#include "mesh/gmsh_library.h"
 #endif
 
 namespace mortier {

@@ -4,9 +4,32 @@
 #include <variant>
 
 #include "mesh/generate.h"
-#include "mesh/outline.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
+
+// Meshes of rigid bodies, which have an outline alone: its edges are as fine as distances and pictures need,
+// and the triangles behind them have no node but its corners.
+
+/// A closed line without crossings, the body to its left: edge k runs from point k to the next.
+struct Outline {
+  std::vector<Point> points;           ///< [m]
+  std::vector<int> labels;             ///< by edges
+  std::vector<EdgeCurve> curves = {};  ///< by edges; empty where none stands for a curve that is no circle
+  std::string name = {};               ///< for messages
+};
+
+/// A circle, label 1. Beside the axis of revolution, with its centre on it, the half at x >= 0 and the axis
+/// itself, label 2.
+Outline discOutline(const Point& centre, double radius, bool axisymmetric);
+/// A half plane behind the stretch between two points, to the left of it: label 1, what is behind it 2.
+Outline lineOutline(const Point& from, const Point& to);
+/// The cubic spline through the points (natural; periodic where the first is the last), label 1; the straight
+/// side that closes one that is open, label 2.
+Outline splineOutline(const std::vector<Point>& points);
+
+/// Cuts ears off the polygon. \throws InputError where it crosses itself or runs clockwise.
+TriangleMesh outlineMesh(const Outline& outline);
 
 struct MeshShape {
   std::variant<Rectangle, Quadrilateral, Annulus, HalfDisc, Outline> of;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/digits.h"
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -213,6 +213,24 @@ double aspectRatio(const TriangleMesh& mesh, int t) {
 
 void validate(TriangleMesh& mesh, const FaultPlace& place) {
   Validator(mesh, place).run();
+}
+
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
+  constexpr double rounding = 1e-12;  // of the largest radius
+  double largest = 0;
+  for (const Point& vertex : mesh.vertices) largest = std::max(largest, std::abs(vertex.x()));
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    double& radius = mesh.vertices[v].x();
+    if (std::abs(radius) <= rounding * largest) radius = 0;
+    if (radius >= 0) continue;
+    std::ostringstream message;
+    message << mesh.name << ": vertex " << v + 1 << " at x = " << radius << ", expected x >= 0 beside "
+            << beside << ": x is the distance from the axis";
+    throw InputError(message.str());
+  }
+  for (Point& middle : mesh.edgeMiddles)
+    if (std::abs(middle.x()) <= rounding * largest) middle.x() = 0;
+  return mesh;
 }
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,27 @@ using FaultPlace = std::function<std::string(MeshPart part, int index)>;
 /// edge or less: no absolute length enters. \throws InputError with the first fault, headed by `place` or,
 /// without one, by `mesh.name`.
 void validate(TriangleMesh& mesh, const FaultPlace& place = {});
+
+// Bodies of revolution: a mesh in the half plane x >= 0 turns about the axis x = 0. Then x is the radius r
+// and y the coordinate z along the axis; what is integrated over the mesh or its sides is of the whole ring,
+//   int f dV = int f 2 pi r dA,   int f dS = int f 2 pi r ds.
+
+/// 2 pi r [m].
+inline double circumference(const Point& place) {
+  return 2 * std::numbers::pi * place.x();
+}
+
+/// Vertices that only rounding keeps from the axis are put on it.
+/// \throws InputError with the first vertex on the other side of it. \param beside  the key that asks for it
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside = "plane = \"axisymmetric\"");
+
+// Labels in messages.
+
+/// `label 3 "top"`, or `label 3` where the mesh has no name for it.
+inline std::string labelText(const TriangleMesh& mesh, int label) {
+  for (const auto& [name, number] : mesh.labelNames)
+    if (number == label) return "label " + std::to_string(label) + " \"" + name + "\"";
+  return "label " + std::to_string(label);
+}
 
 }  // namespace mortier

@@ -5,9 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "base/counted.h"
 #include "base/digits.h"
-#include "plan/steps.h"
+#include "plan/loads.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
 

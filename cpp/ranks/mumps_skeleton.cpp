@@ -1,5 +1,3 @@
-#include "ranks/mumps_skeleton.h"
-
 #include <dmumps_c.h>
 
 #include <algorithm>

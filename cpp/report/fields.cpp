@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "material/stress.h"
 #include "report/output_file.h"
-#include "solver/total_strain.h"
+#include "solver/state.h"
 
 namespace mortier {
 

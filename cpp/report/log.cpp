@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "report/clock.h"
 #include "report/summary.h"
 

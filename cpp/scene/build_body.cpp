@@ -7,7 +7,7 @@
 #include "material/parts.h"
 #include "mesh/boundary_line.h"
 #include "scene/build.h"
-#include "scene/finite_value.h"
+#include "scene/expression.h"
 
 namespace mortier {
 

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "material/space.h"
 #include "scene/build.h"
-#include "scene/finite_value.h"
+#include "scene/expression.h"
 
 namespace mortier {
 namespace {

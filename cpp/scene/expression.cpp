@@ -10,10 +10,8 @@
 #include <optional>
 #include <set>
 
-#include "base/datum_error.h"
+#include "base/error.h"
 #include "scene/document.h"
-#include "scene/finite_value.h"
-#include "scene/known_datum.h"
 
 namespace mortier {
 

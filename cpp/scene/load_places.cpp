@@ -1,4 +1,4 @@
-#include "scene/load_places.h"
+#include "scene/load_courses.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "scene/readers.h"
 
 namespace mortier {

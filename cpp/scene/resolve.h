@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/triangle_mesh.h"
 #include "scene/scene.h"
 
 namespace mortier {
@@ -91,5 +92,13 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
 /// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
 /// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
 void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+
+// Which displacements of a mesh the conditions of a body prescribe along x and y.
+
+/// The axis (0: x, 1: y) along which a component (fem/supports.h) of an edge is; none where it is oblique.
+std::optional<int> axisOf(int component, const Point& from, const Point& to);
+
+/// Per dof 2 vertex + axis, whether a displacement is prescribed.
+std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<ConditionDescription>& conditions);
 
 }  // namespace mortier

@@ -1,4 +1,4 @@
-#include "solver/body_part.h"
+#include "solver/model.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,8 @@
-#include "solver/viscosity_walk.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "solver/methods.h"
 
 namespace mortier {

@@ -1,4 +1,3 @@
-#include "scene/load_places.h"
 
 #include <gtest/gtest.h>
 
