@@ -26,13 +26,11 @@ bool follows(const SceneDescription& scene, const BodyDescription& body) {
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
-  if (scene.time.scheme != Scheme::backwardEuler) {
+  if (scene.time.scheme != Scheme::backwardEuler)
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
-  }
-  if (scene.time.controlled() && !stepsGiven) {
+  if (scene.time.controlled() && !stepsGiven)
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
            "equal steps, or those of a run (--steps-of)");
-  }
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
       if (body.isTool() && c.component == 2 && follows(scene, body) &&
@@ -42,9 +40,8 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
                "no rotation");
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });
-    if (stressed || !body.regions.empty()) {
+    if (stressed || !body.regions.empty())
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
-    }
     if (const auto* own = body.material.as<OwnLaw>()) {
       if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
       if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");

@@ -55,9 +55,8 @@ void OutputFile::flush() {
 }
 
 OutputFile& OutputFile::operator<<(double value) {
-  if (!std::isfinite(value)) {
+  if (!std::isfinite(value))
     throw OutputError(path_ + ": a number that is not finite was to be written; the run is not valid");
-  }
   char text[32];
   return *this << std::string_view(text, std::to_chars(text, text + sizeof text, value).ptr - text);
 }

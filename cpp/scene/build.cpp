@@ -39,9 +39,7 @@ Model buildModel(ResolvedScene& scene) {
   scene.meshes.clear();
   scene.spaceMeshes.clear();
   if (description.inSpace()) requireMemory(memoryNeed(model, description.solver), false);
-  for (const ContactDescription& contact : description.contacts) {
-    addContact(description, contact, model);
-  }
+  for (const ContactDescription& contact : description.contacts) addContact(description, contact, model);
   return model;
 }
 

@@ -16,9 +16,8 @@ namespace {
 /// The middles of the edges of a label.
 std::vector<Point> middlesOn(const TriangleMesh& mesh, int label) {
   std::vector<Point> points;
-  for (const auto& [a, b] : edgesOn(mesh, label)) {
+  for (const auto& [a, b] : edgesOn(mesh, label))
     points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-  }
   return points;
 }
 
@@ -52,13 +51,9 @@ double largestOf(const ConditionDescription& condition, const TriangleMesh& mesh
 void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
                        const std::vector<double>& times) {
   for (const ConditionDescription& condition : body.conditions) {
-    if (condition.value.constant) {
-      continue;
-    }
+    if (condition.value.constant) continue;
     std::vector<Point> points;
-    if (condition.kind == ConditionDescription::Kind::traction) {
-      points = middlesOn(mesh, condition.label);
-    }
+    if (condition.kind == ConditionDescription::Kind::traction) points = middlesOn(mesh, condition.label);
     if (condition.point) {
       points.push_back(*condition.point);
     } else {
@@ -67,21 +62,15 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
     requireFinite(condition.value, points, times);
   }
   for (const std::optional<Expression>& force : body.force) {
-    if (force && !force->constant) {
-      requireFinite(*force, centres(mesh), times);
-    }
+    if (force && !force->constant) requireFinite(*force, centres(mesh), times);
   }
   const auto requireFiniteStress = [&](const StressDescription& stress) {
     for (const std::optional<Expression>& component : stress) {
-      if (component && !component->constant) {
-        requireFinite(*component, centres(mesh), {0});
-      }
+      if (component && !component->constant) requireFinite(*component, centres(mesh), {0});
     }
   };
   requireFiniteStress(body.initialStress);
-  for (const RegionDescription& region : body.regions) {
-    requireFiniteStress(region.initialStress);
-  }
+  for (const RegionDescription& region : body.regions) requireFiniteStress(region.initialStress);
 }
 
 /// Where labels or points meet, all may prescribe a motion of a node, but not differently. `displacements`
@@ -146,10 +135,9 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
     return overstressMaterial(elasticity, *overstress, plane);
   if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
-  if (plane != Plane::stress) {
+  if (plane != Plane::stress)
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
                            : planeStrainElasticMaterial(elasticity);
-  }
   return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
 }
 
@@ -164,9 +152,7 @@ std::shared_ptr<const Material> materialOfRegions(
       materials.push_back(make(*region.material));
     }
   }
-  if (materials.size() == 1) {
-    return materials.front();
-  }
+  if (materials.size() == 1) return materials.front();
   for (const auto& material : materials)
     if (material->components() != materials.front()->components())
       throw InputError(body.where + ": body " + body.name +
@@ -183,9 +169,8 @@ namespace {
 
 void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
   for (size_t c = 0; c < stress.size(); ++c) {
-    if (stress[c]) {
+    if (stress[c])
       conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
-    }
   }
 }
 
@@ -242,14 +227,11 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   requireFiniteData(body, mesh, times);
   requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
   for (const int c : {0, 1}) {
-    if (body.force[c]) {
-      conditions.forces.push_back({c, finiteValue(*body.force[c])});
-    }
+    if (body.force[c]) conditions.forces.push_back({c, finiteValue(*body.force[c])});
   }
   addInitialStress(body.initialStress, std::nullopt, conditions);
-  for (const RegionDescription& region : body.regions) {
+  for (const RegionDescription& region : body.regions)
     addInitialStress(region.initialStress, region.label, conditions);
-  }
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
   const std::shared_ptr<const Material> material =
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {

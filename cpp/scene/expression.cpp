@@ -76,9 +76,7 @@ bool assigns(const std::string& text) {
   for (size_t i = 0; i < text.size(); ++i) {
     const bool comparison = (i > 0 && std::string("=!<>").find(text[i - 1]) != std::string::npos) ||
                             (i + 1 < text.size() && text[i + 1] == '=');
-    if (text[i] == '=' && !comparison) {
-      return true;
-    }
+    if (text[i] == '=' && !comparison) return true;
   }
   return false;
 }
@@ -117,9 +115,7 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
   text.append(shortest(values.back())).append(times.size(), ')');
   Datum value = [times, values](double, double, double t) {
     const size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin();
-    if (i == 0 || i == times.size()) {
-      return i == 0 ? values.front() : values.back();
-    }
+    if (i == 0 || i == times.size()) return i == 0 ? values.front() : values.back();
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return (1 - part) * values[i - 1] + part * values[i];
   };
@@ -150,17 +146,11 @@ Expression negated(Expression expression) {
 }
 
 Expression parseExpression(const std::string& text, std::string where, bool inSpace) {
-  if (text.find_first_not_of(" \t\n\r") == std::string::npos) {
-    reject(where, "it is empty", inSpace);
-  }
-  if (assigns(text)) {
-    reject(where, "assignment is not allowed", inSpace);
-  }
+  if (text.find_first_not_of(" \t\n\r") == std::string::npos) reject(where, "it is empty", inSpace);
+  if (assigns(text)) reject(where, "assignment is not allowed", inSpace);
   try {
     Compiled compiled(text, inSpace);
-    if (compiled.values() != 1) {
-      reject(where, "it has several values", inSpace);
-    }
+    if (compiled.values() != 1) reject(where, "it has several values", inSpace);
     const std::set<std::string> variables = compiled.variables();
     if (variables.empty()) {
       const double value = compiled(0, 0, 0);
@@ -181,12 +171,9 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));
-    if (!reason.empty() && reason.back() == '.') {
-      reason.pop_back();
-    }
-    if (!reason.empty()) {
+    if (!reason.empty() && reason.back() == '.') reason.pop_back();
+    if (!reason.empty())
       reason.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(reason.front())));
-    }
     reject(where, reason, inSpace);
   }
 }

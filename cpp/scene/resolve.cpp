@@ -145,13 +145,9 @@ namespace {
 
 int numberOf(const std::map<std::string, int>& names, const std::string& name, const std::string& what,
              const std::string& meshName, const std::string& place) {
-  if (const auto found = names.find(name); found != names.end()) {
-    return found->second;
-  }
+  if (const auto found = names.find(name); found != names.end()) return found->second;
   Keys words;
-  for (const auto& [known, number] : names) {
-    words.push_back(known);
-  }
+  for (const auto& [known, number] : names) words.push_back(known);
   throw InputError(place + ": label = \"" + name + "\", " +
                    (words.empty()
                         ? "the mesh " + meshName + " has no names of " + what
@@ -161,21 +157,15 @@ int numberOf(const std::map<std::string, int>& names, const std::string& name, c
 template <class Labels>
 Keys wordsFor(const Labels& labels) {
   Keys words;
-  for (const int label : labels) {
-    words.push_back(std::to_string(label));
-  }
+  for (const int label : labels) words.push_back(std::to_string(label));
   return words;
 }
 
 template <class Mesh>
 int boundaryLabelOf(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
-  if (!name.empty()) {
-    label = numberOf(mesh.labelNames, name, "boundaries", mesh.name, place);
-  }
+  if (!name.empty()) label = numberOf(mesh.labelNames, name, "boundaries", mesh.name, place);
   const std::vector<int> labels = boundaryLabels(mesh);
-  if (std::binary_search(labels.begin(), labels.end(), label)) {
-    return label;
-  }
+  if (std::binary_search(labels.begin(), labels.end(), label)) return label;
   throw InputError(place + ": label = " + std::to_string(label) +
                    (labels.empty() ? ", the mesh " + mesh.name + " has no labelled boundary"
                                    : ", expected one of " + joined(wordsFor(labels)) +
@@ -184,13 +174,9 @@ int boundaryLabelOf(const Mesh& mesh, int label, const std::string& name, const 
 
 template <class Mesh>
 int regionLabelOf(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
-  if (!name.empty()) {
-    label = numberOf(mesh.regionNames, name, "regions", mesh.name, place);
-  }
+  if (!name.empty()) label = numberOf(mesh.regionNames, name, "regions", mesh.name, place);
   const std::set<int> labels(mesh.regions.begin(), mesh.regions.end());
-  if (labels.count(label) > 0) {
-    return label;
-  }
+  if (labels.count(label) > 0) return label;
   throw InputError(place + ": region label = " + std::to_string(label) + ", expected one of " +
                    joined(wordsFor(labels)) + " (regions of " + mesh.name + ")");
 }
