@@ -1,4 +1,4 @@
-#include "bound/composite_reference.h"
+#include "bound/composite_triangle.h"
 
 #include "base/dense_templates.h"
 

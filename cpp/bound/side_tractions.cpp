@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/dense_templates.h"
-#include "bound/composite_reference.h"
+#include "bound/composite_triangle.h"
 #include "material/stress.h"
 #include "mesh/triangle_sides.h"
 

@@ -13,8 +13,7 @@
 #include "commands/command_line.h"
 #include "fem/element.h"
 #include "mesh/boundary_line.h"
-#include "mesh/gmsh.h"
-#include "mesh/medit.h"
+#include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/document.h"
 

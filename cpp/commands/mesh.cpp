@@ -13,7 +13,6 @@
 #include "commands/command_line.h"
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
-#include "mesh/medit.h"
 #include "mesh/read.h"
 
 namespace mortier {

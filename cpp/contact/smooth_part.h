@@ -23,7 +23,7 @@
 #include "base/types.h"
 #include "mesh/boundary_line.h"
 #include "mesh/element_nodes.h"
-#include "mesh/sampled_curve.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 

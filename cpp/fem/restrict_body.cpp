@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fem/body.h"
-#include "material/pointwise.h"
+#include "material/parts.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {

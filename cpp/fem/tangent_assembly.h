@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/types.h"
-#include "linear/sparse_pattern.h"
+#include "linear/condensing_solver.h"
 #include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 

@@ -1,6 +1,6 @@
 // In a process of its own: Gmsh crashes on some files, and a geometry is a program that could start others
 // and write files.
-#include "mesh/gmsh.h"
+#include "mesh/read.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesh/read.h"
-#include "mesh/sampled_curve.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 

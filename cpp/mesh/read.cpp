@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "mesh/gmsh.h"
-#include "mesh/medit.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {

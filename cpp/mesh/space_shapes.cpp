@@ -1,4 +1,4 @@
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 
 #include <algorithm>
 

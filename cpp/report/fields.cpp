@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "material/stress.h"
-#include "report/output_file.h"
+#include "report/manifest.h"
 #include "solver/state.h"
 
 namespace mortier {

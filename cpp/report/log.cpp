@@ -7,7 +7,6 @@
 
 #include "base/digits.h"
 #include "report/clock.h"
-#include "report/summary.h"
 
 namespace mortier {
 

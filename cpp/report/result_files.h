@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "report/fields.h"
-#include "report/output_file.h"
+#include "report/manifest.h"
 #include "time/march.h"
 #include "time/quantity.h"
 

@@ -1,4 +1,4 @@
-#include "report/summary.h"
+#include "report/log.h"
 
 #include <algorithm>
 #include <cmath>

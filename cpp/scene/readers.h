@@ -6,7 +6,6 @@
 #include <string>
 
 #include "mesh/shape.h"
-#include "mesh/space_shapes.h"
 #include "scene/document.h"
 #include "scene/expression.h"
 #include "scene/keys.h"

@@ -1,10 +1,9 @@
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "mesh/generate.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "scene/expression.h"
 #include "scene/load_courses.h"
 #include "unit/scene_folder.h"

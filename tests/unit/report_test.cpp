@@ -9,7 +9,6 @@
 #include "report/fields.h"
 #include "report/log.h"
 #include "report/result_files.h"
-#include "report/summary.h"
 #include "unit/blocks_of_one_cell.h"
 #include "unit/result_folder.h"
 

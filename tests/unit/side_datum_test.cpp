@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "bound/side_datum.h"
-#include "bound/triangle_datum.h"
 #include "scene/expression.h"
 
 namespace mortier::side_datum_test {
