@@ -28,6 +28,11 @@ struct DoubleDouble {
     const double p = a * b;
     return {p, std::fma(a, b, -p)};
   }
+  static DoubleDouble product(double a, const DoubleDouble& b) {
+    DoubleDouble p = product(a, b.high);
+    p.low += a * b.low;
+    return p;
+  }
 
   DoubleDouble& operator+=(const DoubleDouble& b) {
     const DoubleDouble s = sum(high, b.high);

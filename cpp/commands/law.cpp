@@ -118,8 +118,7 @@ int tryLaws(const LawOptions& command) {
     for (const MaterialDescription* description : materialsOf(body)) {
       MaterialDescription inItsAxes = *description;
       if (inItsAxes.anisotropy) inItsAxes.anisotropy->angle.reset();
-      const auto material =
-          scene.inSpace() ? buildSpaceMaterial(inItsAxes, {}) : buildMaterial(inItsAxes, scene.plane, {});
+      const auto material = buildMaterial(inItsAxes, scene.inSpace() ? Plane::none : scene.plane);
       const auto* own = description->as<OwnLaw>();
       const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
       std::string name = "body " + body.name;

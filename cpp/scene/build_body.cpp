@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/parts.h"
+#include "material/space.h"
 #include "mesh/boundary_line.h"
 #include "scene/build.h"
 #include "scene/expression.h"
@@ -112,8 +113,6 @@ void requireOneDisplacement(const Supports& supports,
   }
 }
 
-}  // namespace
-
 std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
                                                  const std::vector<double>& angles) {
   StressLaw flow;
@@ -124,21 +123,28 @@ std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& desc
   return turnedMaterial(anisotropicMaterial(anisotropy, flow, plane), angles);
 }
 
+}  // namespace
+
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
-                                              const std::vector<Point>& places) {
-  if (description.anisotropy) return buildAnisotropic(description, plane, anglesOf(description, places));
+                                              const std::vector<double>& angles) {
+  if (description.anisotropy) return buildAnisotropic(description, plane, angles);
+  const bool space = plane == Plane::none;
   const Elasticity& elasticity = description.elasticity;
-  if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
-  if (const auto* viscoelasticity = description.as<Viscoelasticity>())
-    return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
+  if (const auto* norton = description.as<NortonCreep>())
+    return space ? spaceNortonMaterial(elasticity, *norton) : nortonMaterial(elasticity, *norton, plane);
+  if (const auto* relaxing = description.as<Viscoelasticity>())
+    return space ? spaceViscoelasticMaterial(elasticity, *relaxing)
+                 : viscoelasticMaterial(elasticity, *relaxing, plane);
   if (const auto* overstress = description.as<Overstress>())
-    return overstressMaterial(elasticity, *overstress, plane);
+    return space ? spaceOverstressMaterial(elasticity, *overstress)
+                 : overstressMaterial(elasticity, *overstress, plane);
   if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
-  const auto* viscoplasticity = description.as<Viscoplasticity>();
-  if (plane != Plane::stress)
-    return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
-                           : planeStrainElasticMaterial(elasticity);
-  return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
+  const auto* perzyna = description.as<Viscoplasticity>();
+  if (plane == Plane::stress)
+    return perzyna ? perzynaMaterial(elasticity, *perzyna) : elasticMaterial(elasticity);
+  if (!perzyna) return space ? spaceElasticMaterial(elasticity) : planeStrainElasticMaterial(elasticity);
+  return space ? spacePerzynaMaterial(elasticity, *perzyna)
+               : planeStrainPerzynaMaterial(elasticity, *perzyna);
 }
 
 std::shared_ptr<const Material> materialOfRegions(
@@ -203,7 +209,7 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
       });
   Conditions conditions;
   conditions.rigid = std::move(motion);
-  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),
+  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane), std::move(conditions),
           scene.degree, axisymmetric};
 }
 
@@ -235,7 +241,7 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
   const std::shared_ptr<const Material> material =
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {
-        return buildMaterial(description, scene.plane, places);
+        return buildMaterial(description, scene.plane, anglesOf(description, places));
       });
   if (body.temperature) {
     conditions.temperature = finiteValue(body.temperature->value);

@@ -209,33 +209,35 @@ SpaceDatum finiteAt(const Expression& expression, bool inSpace) {
   };
 }
 
-void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
-                   const std::vector<double>& times) {
-  const SpaceDatum value = finiteInSpace(expression);
-  for (const double t : times)
-    for (const SpacePoint& p : points) value(p, t);
+namespace {
+
+template <class Place>
+double finiteAt(const Expression& expression, const Place& p, double t) {
+  SpacePoint x(p[0], p[1], 0);
+  std::optional<double> z;
+  if constexpr (Place::SizeAtCompileTime == 3) z = x[2] = p[2];
+  return finite(expression.at(x, t), expression.where, p[0], p[1], t, z);
 }
 
-void requireFinite(const Expression& expression, const std::vector<Point>& points,
+}  // namespace
+
+template <class Place>
+void requireFinite(const Expression& expression, const std::vector<Place>& points,
                    const std::vector<double>& times) {
   for (const double t : times)
-    for (const Point& p : points) finite(expression.value(p[0], p[1], t), expression.where, p[0], p[1], t);
+    for (const Place& p : points) finiteAt(expression, p, t);
 }
 
-template <>
-std::vector<double> valuesAt(const Expression& expression, const std::vector<Point>& points) {
+template <class Place>
+std::vector<double> valuesAt(const Expression& expression, const std::vector<Place>& points) {
   std::vector<double> values;
-  for (const Point& p : points)
-    values.push_back(finite(expression.value(p[0], p[1], 0), expression.where, p[0], p[1], 0));
+  for (const Place& p : points) values.push_back(finiteAt(expression, p, 0));
   return values;
 }
 
-template <>
-std::vector<double> valuesAt(const Expression& expression, const std::vector<SpacePoint>& points) {
-  const SpaceDatum value = finiteInSpace(expression);
-  std::vector<double> values;
-  for (const SpacePoint& p : points) values.push_back(value(p, 0));
-  return values;
-}
+template void requireFinite(const Expression&, const std::vector<Point>&, const std::vector<double>&);
+template void requireFinite(const Expression&, const std::vector<SpacePoint>&, const std::vector<double>&);
+template std::vector<double> valuesAt(const Expression&, const std::vector<Point>&);
+template std::vector<double> valuesAt(const Expression&, const std::vector<SpacePoint>&);
 
 }  // namespace mortier

@@ -39,11 +39,10 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
 
 /// Evaluates at every point and time. \throws InputError naming the first point and time where it is not
 /// finite.
-void requireFinite(const Expression& expression, const std::vector<Point>& points,
+template <class Place>
+void requireFinite(const Expression& expression, const std::vector<Place>& points,
                    const std::vector<double>& times);
-void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
-                   const std::vector<double>& times);
-/// Its values at time 0. \throws InputError as these
+/// Its values at time 0. \throws InputError as this
 template <class Place>
 std::vector<double> valuesAt(const Expression& expression, const std::vector<Place>& points);
 
