@@ -18,7 +18,7 @@
 
 namespace mortier {
 
-/// Writes values into `bytes`, or reads them from it: \throws InputError where the bytes do not match the types.
+/// Writes values into `bytes`, or reads them from it. \throws InputError where these do not match the types.
 template <bool reads>
 class Archive {
  public:
