@@ -1,5 +1,6 @@
 #include "contact/facing_line.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -164,15 +165,11 @@ class Search {
   }
 
   int nearest() {
-    Point low = part_.points.front();
-    Point high = low;
-    for (const Point& x : part_.points) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
+    Eigen::AlignedBox2d box;
+    for (const Point& x : part_.points) box.extend(x);
     int seed = -1;
     double distance = std::numeric_limits<double>::infinity();
-    mortar_.tree.near(low, high, distance, [&](int element) {
+    mortar_.tree.near(box.min(), box.max(), distance, [&](int element) {
       if (!faces(element)) return;
       const double here = distanceOf(element);
       if (here < distance) {
@@ -249,19 +246,8 @@ double bulgeOf(const SmoothPart* drawn, int element, double xi, const Arc& arc,
                     {cosine * n.x() - sine * n.y(), sine * n.x() + cosine * n.y()});
 }
 
-/// The element of the mortar line that holds s, the end elements beyond the ends.
-int elementAt(const FacingLine& mortar, double s) {
-  return static_cast<int>(std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s) - mortar.s.begin()) -
-         1;
-}
-
-/// A node of the part: its element and its abscissa.
-struct Place {
-  int element = 0;
-  double s = 0;
-};
-
-Place placeOf(const SmoothPart& part, int node) {
+/// Of a node of the part: its element and its abscissa.
+std::pair<int, double> placeOf(const SmoothPart& part, int node) {
   const auto vertices = static_cast<int>(part.nodes.size());
   if (node < vertices) return {std::min(node, part.elements() - 1), part.s[node]};
   const int element = node - vertices;
@@ -348,7 +334,9 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
 
 Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node) {
   const auto [element, s] = placeOf(part, node);
-  const Segment place{element, elementAt(mortar, std::clamp(s, mortar.s.front(), mortar.s.back())), s, s};
+  // The element of the mortar line that holds s, the end elements beyond the ends.
+  const auto after = std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s);
+  const Segment place{element, static_cast<int>(after - mortar.s.begin()) - 1, s, s};
   return {see(part, mortar, place, s), place};
 }
 
