@@ -11,7 +11,7 @@ namespace mortier {
 namespace {
 
 constexpr int unlabelled = -1;
-constexpr int inside = -2;
+constexpr int insideLabel = -2;
 
 /// Edges with a label of their own, by their vertices; where two regions meet, that of one side.
 std::map<std::array<int, 2>, int> edgesToFollow(const TriangleMesh& mesh) {
@@ -25,7 +25,7 @@ std::map<std::array<int, 2>, int> edgesToFollow(const TriangleMesh& mesh) {
     if (other == regionOf.end())
       labels[edge] = unlabelled;
     else if (region < other->second)
-      labels[edge] = inside;
+      labels[edge] = insideLabel;
   }
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
     labels[mesh.boundaryEdges[e]] = mesh.boundaryLabels[e];
@@ -83,9 +83,9 @@ std::map<std::array<int, 2>, double> toldByMesh(const TriangleMesh& mesh) {
 }
 
 std::string nameOf(int label) {
-  return label == unlabelled ? "its boundary without a label"
-         : label == inside   ? "the line between its regions"
-                             : "label " + std::to_string(label);
+  return label == unlabelled    ? "its boundary without a label"
+         : label == insideLabel ? "the line between its regions"
+                                : "label " + std::to_string(label);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace mortier {
 namespace {
 
 /// Lines face each other up to this angle between their directions: cos 60 degrees.
-constexpr double facing = 0.5;
+constexpr double leastFacing = 0.5;
 /// Abscissae closer to an end of the part than this part of the element there are on it.
 constexpr double sameEdgeEnd = 1e-9;
 /// Places on an element that differ by less are one.
@@ -150,7 +150,7 @@ class Search {
       return false;
     const Point n = (a.normal + b.normal).normalized();
     const Point d = (mortar_.points[within(element) + 1] - mortar_.points[within(element)]).normalized();
-    return Point(-n.y(), n.x()).dot(d) > facing;
+    return Point(-n.y(), n.x()).dot(d) > leastFacing;
   }
 
   /// The least distance of an element over the part, infinite where it is not over it.

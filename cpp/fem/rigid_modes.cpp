@@ -14,6 +14,12 @@
 namespace mortier {
 namespace {
 
+Matrix columnsOf(const std::vector<Vector>& vectors, Eigen::Index rows) {
+  Matrix columns(rows, static_cast<Eigen::Index>(vectors.size()));
+  for (size_t i = 0; i < vectors.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = vectors[i];
+  return columns;
+}
+
 /// A motion that moves supports and opens hinges by less than this part of itself is free.
 constexpr double heldFraction = 1e-12;
 
@@ -30,15 +36,13 @@ struct Frame {
 };
 
 Frame frameOf(const std::vector<Point>& places, const std::vector<int>& vertices) {
-  Point lower = places[vertices.front()];
-  Point upper = lower;
+  Eigen::AlignedBox2d box;
   Point sum = Point::Zero();
   for (const int v : vertices) {
     sum += places[v];
-    lower = lower.cwiseMin(places[v]);
-    upper = upper.cwiseMax(places[v]);
+    box.extend(places[v]);
   }
-  return {sum / static_cast<double>(vertices.size()), (upper - lower).maxCoeff() / 2};
+  return {sum / static_cast<double>(vertices.size()), box.sizes().maxCoeff() / 2};
 }
 
 /// The components of a mesh that are rigid in themselves (mesh/triangle_sides.h).
@@ -147,9 +151,7 @@ Matrix rigidModes(const Body& body) {
       throw UnheldBodyError("body " + body.name() + ": nothing holds its " +
                             describeRigidMotion(body, free.front()) + ", and hundreds of other parts");
   }
-  Matrix modes(body.dofs(), static_cast<Eigen::Index>(free.size()));
-  for (size_t i = 0; i < free.size(); ++i) modes.col(static_cast<Eigen::Index>(i)) = free[i];
-  return modes;
+  return columnsOf(free, body.dofs());
 }
 
 std::string describeRigidMotion(const Body& body, const Vector& motion) {
@@ -265,9 +267,7 @@ Matrix spaceRigidModes(const Body& body) {
       free.push_back(body.spread(body.gather(mode)));  // what is along prescribed motions is rounding
     }
   }
-  Matrix modes(body.dofs(), static_cast<Eigen::Index>(free.size()));
-  for (size_t i = 0; i < free.size(); ++i) modes.col(static_cast<Eigen::Index>(i)) = free[i];
-  return modes;
+  return columnsOf(free, body.dofs());
 }
 
 std::string describeSpaceMotion(const Body& body, const Vector& motion) {

@@ -20,6 +20,8 @@ int blas_thread_shutdown_() __attribute__((weak));  // of OpenBLAS, where it has
 namespace mortier::dense {
 namespace {
 
+namespace stdx = std::experimental;
+
 /// Below this many pivots a call of BLAS costs more than the loops it saves.
 constexpr int smallPivots = 12;
 constexpr int smallRows = 96;
@@ -31,8 +33,7 @@ bool isSmall(int n, int pivots) {
 /// In two running sums of four: without leave to reorder, the compiler keeps one.
 template <class Real>
 Real dot(const Real* x, const Real* y, int n) {
-  using Eight = std::experimental::fixed_size_simd<Real, 8>;
-  namespace stdx = std::experimental;
+  using Eight = stdx::fixed_size_simd<Real, 8>;
   Eight sum = 0;
   int i = 0;
   for (; i + 8 <= n; i += 8) sum += Eight(x + i, stdx::element_aligned) * Eight(y + i, stdx::element_aligned);
@@ -56,8 +57,6 @@ bool finiteDiagonal(const Real* panel, int n, int pivots) {
     if (!std::isfinite(panel[static_cast<size_t>(n) * k + k])) return false;
   return true;
 }
-
-namespace stdx = std::experimental;
 
 /// Rows [i, i + size of Rows) and `columns` columns from j of update = -L21 U12; U12' and L21 by columns.
 template <class Rows, int columns, class Real>

@@ -36,10 +36,8 @@ namespace {
 
 /// A cosine or a sine; those of right angles are exact.
 double withoutRounding(double value) {
-  constexpr double rounding = 1e-15;
-  return std::abs(value) < rounding                 ? 0
-         : std::abs(std::abs(value) - 1) < rounding ? std::round(value)
-                                                    : value;
+  constexpr double tiny = 1e-15;
+  return std::abs(value) < tiny ? 0 : std::abs(std::abs(value) - 1) < tiny ? std::round(value) : value;
 }
 
 /// Numbers of the vertices of all layers: those on the axis are the same in each.
