@@ -1,7 +1,5 @@
 #include "bound/quantity_bound.h"
 
-#include <algorithm>
-
 #include "base/dense_templates.h"
 
 namespace mortier {

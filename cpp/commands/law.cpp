@@ -13,7 +13,6 @@
 #include "material/stress.h"
 #include "plan/loads.h"
 #include "scene/build.h"
-#include "scene/document.h"
 
 namespace mortier {
 namespace {

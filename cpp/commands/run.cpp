@@ -1,7 +1,6 @@
 #include "commands/run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

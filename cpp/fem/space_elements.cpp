@@ -1,7 +1,6 @@
 #include "fem/space_elements.h"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 
 #include "base/error.h"

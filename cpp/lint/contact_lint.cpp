@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "contact/sliding.h"
 #include "lint/lint.h"
-#include "lint/topology.h"
 #include "mesh/boundary_line.h"
 #include "mesh/triangle_mesh.h"
 #include "plan/estimate_doubts.h"

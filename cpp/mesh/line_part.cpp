@@ -1,7 +1,6 @@
 #include "mesh/line_part.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>

@@ -1,6 +1,5 @@
 #include <dmumps_c.h>
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <stdexcept>

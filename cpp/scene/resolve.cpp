@@ -1,7 +1,6 @@
 #include "scene/resolve.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
 #include <set>

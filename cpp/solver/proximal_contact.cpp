@@ -1,7 +1,6 @@
 #include "solver/proximal_contact.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/dense_templates.h"
