@@ -20,7 +20,7 @@
 #include "material/perzyna.h"
 #include "material/stress.h"
 #include "mesh/generate.h"
-#include "mesh/medit.h"
+#include "mesh/read.h"
 #include "solver/complementarity.h"
 #include "solver/condensed_body.h"
 #include "table.h"

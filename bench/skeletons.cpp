@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "ranks/mumps_skeleton.h"
+#include "ranks/mpi_ranks.h"
 
 using namespace mortier;
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "material/space.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "solver/step_system.h"
 #include "time/march.h"
 

@@ -9,7 +9,7 @@
 #include "base/printable.h"
 #include "bind.h"
 #include "lint/lint.h"
-#include "mesh/medit.h"
+#include "mesh/read.h"
 #include "worker.h"
 
 namespace py = pybind11;

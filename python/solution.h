@@ -12,7 +12,7 @@
 
 #include "commands/run.h"
 #include "report/fields.h"
-#include "report/tables.h"
+#include "report/result_files.h"
 #include "scene.h"
 
 namespace mortier::python {

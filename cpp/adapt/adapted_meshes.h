@@ -19,7 +19,6 @@
 #include "base/types.h"
 #include "contact/surface.h"
 #include "mesh/refine.h"
-#include "mesh/refine_space.h"
 
 namespace mortier {
 

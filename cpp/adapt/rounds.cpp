@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/counted.h"
 #include "base/digits.h"
 #include "base/interrupt.h"
 #include "material/space.h"
-#include "plan/steps.h"
+#include "plan/loads.h"
 
 namespace mortier {
 namespace {

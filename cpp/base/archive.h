@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -19,147 +18,99 @@
 
 namespace mortier {
 
-template <class T>
-concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-
-/// Writes values into a string of bytes.
-class ArchiveWriter {
+/// Writes values into `bytes`, or reads them from it. \throws InputError where these do not match the types.
+template <bool reads>
+class Archive {
  public:
-  std::string bytes;
+  explicit Archive(std::conditional_t<reads, std::string_view, std::string> from = {}) : bytes(from) {}
+
+  std::conditional_t<reads, std::string_view, std::string> bytes;  ///< written so far, or still to be read
 
   template <class... T>
   void operator()(T&... values) {
-    (put(values), ...);
+    (take(values), ...);
   }
-
- private:
-  void raw(const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); }
-  void size(uint64_t n) { raw(&n, sizeof n); }
-  template <PlainValue T>
-  void put(T& value) {
-    raw(&value, sizeof value);
-  }
-  void put(std::string& text) {
-    size(text.size());
-    raw(text.data(), text.size());
-  }
-  void put(Point& p) { raw(p.data(), 2 * sizeof(double)); }
-  void put(SpacePoint& p) { raw(p.data(), 3 * sizeof(double)); }
-  template <class T>
-  void put(std::optional<T>& value) {
-    bool given = value.has_value();
-    put(given);
-    if (given) put(*value);
-  }
-  template <class T, size_t n>
-  void put(std::array<T, n>& values) {
-    for (T& value : values) put(value);
-  }
-  template <int Columns>
-  void put(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
-    size(m.rows());
-    size(m.cols());
-    raw(m.data(), m.size() * sizeof(double));
-  }
-  template <class T>
-  void put(std::map<std::string, T>& values) {
-    size(values.size());
-    for (auto& [key, value] : values) {
-      std::string name = key;
-      (*this)(name, value);
-    }
-  }
-  template <class T>
-  void put(std::vector<T>& values) {
-    size(values.size());
-    for (T& value : values) put(value);
-  }
-  template <class T>
-  void put(T& value) {
-    visitMembers(*this, value);
-  }
-};
-
-/// Reads them from it. \throws InputError where the bytes do not match the types.
-class ArchiveReader {
- public:
-  explicit ArchiveReader(std::string_view bytes) : bytes_(bytes) {}
-
-  template <class... T>
-  void operator()(T&... values) {
-    (get(values), ...);
-  }
-  [[nodiscard]] bool atEnd() const { return bytes_.empty(); }
 
  private:
   void raw(void* data, size_t size) {
-    if (size > bytes_.size()) throw InputError("too short");
-    if (size > 0) std::memcpy(data, bytes_.data(), size);
-    bytes_.remove_prefix(size);
+    if constexpr (reads) {
+      if (size > bytes.size()) throw InputError("too short");
+      if (size > 0) std::memcpy(data, bytes.data(), size);
+      bytes.remove_prefix(size);
+    } else {
+      bytes.append(static_cast<const char*>(data), size);
+    }
   }
-  uint64_t size() {
-    uint64_t n = 0;
+  /// The number of items that follow, each of a byte at least.
+  uint64_t size(uint64_t n) {
     raw(&n, sizeof n);
-    if (n > bytes_.size()) throw InputError("too short");
+    if (reads && n > bytes.size()) throw InputError("too short");
     return n;
   }
-  template <PlainValue T>
-  void get(T& value) {
-    raw(&value, sizeof value);
-  }
-  void get(bool& value) {
-    char byte = 0;
+  void take(bool& value) {
+    char byte = value ? 1 : 0;
     raw(&byte, sizeof byte);
     if (byte != 0 && byte != 1) throw InputError("neither true nor false");
     value = byte == 1;
   }
-  void get(std::string& text) {
-    text.resize(size());
+  void take(std::string& text) {
+    text.resize(size(text.size()));
     raw(text.data(), text.size());
   }
-  void get(Point& p) { raw(p.data(), 2 * sizeof(double)); }
-  void get(SpacePoint& p) { raw(p.data(), 3 * sizeof(double)); }
   template <class T>
-  void get(std::optional<T>& value) {
-    bool given = false;
-    get(given);
-    value.reset();
-    if (given) get(value.emplace());
+  void take(std::optional<T>& value) {
+    bool given = value.has_value();
+    take(given);
+    if (!given) value.reset();
+    if (given) take(value ? *value : value.emplace());
   }
   template <class T, size_t n>
-  void get(std::array<T, n>& values) {
-    for (T& value : values) get(value);
+  void take(std::array<T, n>& values) {
+    for (T& value : values) take(value);
   }
-  template <int Columns>
-  void get(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
-    uint64_t shape[2];
-    raw(shape, sizeof shape);
-    const uint64_t most = bytes_.size() / sizeof(double);
+  template <int Rows, int Columns>
+  void take(Eigen::Matrix<double, Rows, Columns>& m) {
+    uint64_t shape[2] = {static_cast<uint64_t>(m.rows()), static_cast<uint64_t>(m.cols())};
+    if (Rows == Eigen::Dynamic) raw(shape, sizeof shape);
+    const uint64_t most = bytes.size() / sizeof(double);
     const bool fits = Columns == Eigen::Dynamic || shape[1] == static_cast<uint64_t>(Columns);
-    if (!fits || std::max(shape[0], shape[1]) > most + 4 || (shape[0] != 0 && shape[1] > most / shape[0]))
+    if (reads &&
+        (!fits || std::max(shape[0], shape[1]) > most + 4 || (shape[0] != 0 && shape[1] > most / shape[0])))
       throw InputError("too short");
     m.resize(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
     raw(m.data(), m.size() * sizeof(double));
   }
   template <class T>
-  void get(std::map<std::string, T>& values) {
-    for (uint64_t n = size(); n > 0; --n) {
-      std::string key;
-      (*this)(key);
-      (*this)(values[key]);
+  void take(std::map<std::string, T>& values) {
+    uint64_t n = size(values.size());
+    if constexpr (reads) {
+      for (std::string key; n > 0; --n) {
+        take(key);
+        take(values[key]);
+      }
+    } else {
+      for (auto& [key, value] : values) {
+        std::string name = key;
+        (*this)(name, value);
+      }
     }
   }
   template <class T>
-  void get(std::vector<T>& values) {
-    values.clear();
-    for (uint64_t n = size(); n > 0; --n) get(values.emplace_back());
+  void take(std::vector<T>& values) {
+    const uint64_t n = size(values.size());
+    if (reads) values.clear();
+    for (uint64_t i = 0; i < n; ++i) take(reads ? values.emplace_back() : values[i]);
   }
   template <class T>
-  void get(T& value) {
-    visitMembers(*this, value);
+  void take(T& value) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+      raw(&value, sizeof value);
+    else
+      visitMembers(*this, value);
   }
-
-  std::string_view bytes_;
 };
+
+using ArchiveWriter = Archive<false>;
+using ArchiveReader = Archive<true>;
 
 }  // namespace mortier

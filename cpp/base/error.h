@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mortier {
 
@@ -24,6 +25,23 @@ class UnheldBodyError : public std::runtime_error {
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// A datum that is not finite somewhere at some time: wrong input (exit code 2). In a run that has begun it
+/// ends the step, and the last good state is kept (exit code 1).
+class DatumError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// A wrong input that is a fault of its own in docs/check.md.
+class FaultError : public InputError {
+ public:
+  FaultError(const std::string& message, std::string id) : InputError(message), id_(std::move(id)) {}
+  [[nodiscard]] const std::string& id() const { return id_; }
+
+ private:
+  std::string id_;
 };
 
 }  // namespace mortier

@@ -3,6 +3,7 @@
 // number of threads.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -37,5 +38,20 @@ class Threads {
   class Pool;
   std::unique_ptr<Pool> pool_;  ///< none for one thread
 };
+
+// Arrays taken a block at a time, blocks by whoever is idle.
+
+/// Items that stay in the cache from one loop over them to the next, a multiple of the lanes.
+constexpr int itemsOfBlock = 2048;
+
+inline int blocksOf(int n) {
+  return (n + itemsOfBlock - 1) / itemsOfBlock;
+}
+
+/// Calls work(begin, end) for the blocks of [0, n).
+template <class Work>
+void forEachBlock(int n, Threads& threads, const Work& work) {
+  threads.forEach(blocksOf(n), [&](int i) { work(itemsOfBlock * i, std::min(itemsOfBlock * (i + 1), n)); });
+}
 
 }  // namespace mortier

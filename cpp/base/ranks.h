@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+
 namespace mortier {
 
 /// Thrown where another rank has told of a fault of its data (Ranks::tellFault).
@@ -97,5 +99,22 @@ std::string textOfAny(Ranks& ranks, const std::string& text);
 std::string textOfFirst(Ranks& ranks, const std::string& text);
 /// The number of the first rank.
 double numberOfFirst(Ranks& ranks, double number);
+
+// Data that are wrong where one rank alone sees it.
+
+/// Calls work(). A DatumError of any rank is thrown by all. Collective.
+template <class Work>
+void withSharedFaults(Ranks& ranks, const Work& work) {
+  std::string fault;
+  try {
+    work();
+    return;
+  } catch (const DatumError& error) {
+    fault = error.what();
+    ranks.tellFault();
+  } catch (const PeerFault&) {
+  }
+  throw DatumError(textOfAny(ranks, fault));
+}
 
 }  // namespace mortier

@@ -161,10 +161,9 @@ Units Units::from(const std::string& text) {
   }
   if (!seen[0] || !seen[1] || !seen[2]) throw InputError(expected);
   const double ratio = units.in(*stress);
-  if (!(std::abs(ratio - 1) <= rounding)) {
+  if (!(std::abs(ratio - 1) <= rounding))
     throw InputError("expected a consistent set: 1 " + units.stress + " is " + digits(ratio, 4) + " " +
                      units.force + "/" + units.area());
-  }
   return units;
 }
 

@@ -1,4 +1,4 @@
-#include "bound/airy_system.h"
+#include "bound/relaxation.h"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,5 +1,3 @@
-#include "bound/body_data.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +6,7 @@
 #include "base/datum.h"
 #include "base/dense_templates.h"
 #include "bound/loaded_body.h"
-#include "bound/triangle_datum.h"
+#include "bound/side_datum.h"
 #include "material/stress.h"
 
 namespace mortier {

@@ -1,4 +1,4 @@
-#include "bound/composite_reference.h"
+#include "bound/composite_triangle.h"
 
 #include "base/dense_templates.h"
 
@@ -17,16 +17,16 @@ constexpr int column(int part, int vertex, int component) {
   return 9 * component + 3 * part + vertex;
 }
 
-const Point centre = (referenceCorners[0] + referenceCorners[1] + referenceCorners[2]) / 3;
+const Point referenceCentre = (referenceCorners[0] + referenceCorners[1] + referenceCorners[2]) / 3;
 
 std::array<Point, 3> cornersOf(int part) {
-  return {referenceCorners[part], referenceCorners[(part + 1) % 3], centre};
+  return {referenceCorners[part], referenceCorners[(part + 1) % 3], referenceCentre};
 }
 /// In a part, of no mean over the triangle and with the couple 1.
 Point turningForce(int part) {
   double couple = 0;
-  for (const Point& x : referenceCorners) couple += (x - centre).squaredNorm() / 54;
-  return turned(cornersOf(part)[0] + cornersOf(part)[1] - 2 * centre) / (3 * couple);
+  for (const Point& x : referenceCorners) couple += (x - referenceCentre).squaredNorm() / 54;
+  return turned(cornersOf(part)[0] + cornersOf(part)[1] - 2 * referenceCentre) / (3 * couple);
 }
 
 /// Stresses that are quadratic in each part, by their values at corners and middles of sides: those of least
@@ -44,7 +44,7 @@ Eigen::Matrix<double, 18, 3> quadraticStress(const std::array<std::array<Point, 
     for (const int node : {0, 1, 3}) put(2 * row++, e, node, tractionMatrix(acrossFrom(x[0], x[1])));
     // To the part before: nodes 0, 2 and their middle 5 are its 1, 2 and 4.
     for (const auto& [own, other] : {std::array{0, 1}, std::array{2, 2}, std::array{5, 4}}) {
-      const auto n = tractionMatrix(acrossFrom(x[0], centre));
+      const auto n = tractionMatrix(acrossFrom(x[0], referenceCentre));
       put(2 * row, e, own, n);
       put(2 * row++, (e + 2) % 3, other, -n);
     }
@@ -97,7 +97,7 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
     }
   }
   for (int e = 0; e < 3; ++e) {  // between part e and the one before, which meet at vertex e
-    const auto n = tractionMatrix(acrossFrom(referenceCorners[e], centre));
+    const auto n = tractionMatrix(acrossFrom(referenceCorners[e], referenceCentre));
     const int before = (e + 2) % 3;
     put(row, e, 0, n);
     put(row, before, 1, -n);
@@ -118,14 +118,14 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
   turn = Vector(Matrix(conditions.bottomRows<18>()).completeOrthogonalDecomposition().solve(turning));
   turnMoments = conditions.topRows<12>() * turn;
   double couple = 0;
-  for (const Point& x : referenceCorners) couple += (x - centre).squaredNorm() / 24;
+  for (const Point& x : referenceCorners) couple += (x - referenceCentre).squaredNorm() / 24;
   turnForces.setZero();
   std::array<std::array<Point, 3>, 3> rest;
   for (int e = 0; e < 3; ++e)
     for (int k = 0; k < 3; ++k) {
       // A hat function has 4/9 at the centroids of two parts and 1/9 at that of the one opposite.
       turnForces.col(k) += (k == (e + 2) % 3 ? 1 : 4) / 54. * turningForce(e);
-      rest[e][k] = turned(cornersOf(e)[k] - centre) / couple - turningForce(e);
+      rest[e][k] = turned(cornersOf(e)[k] - referenceCentre) / couple - turningForce(e);
     }
   const Eigen::Matrix<double, 18, 3> quadratic = quadraticStress(rest);
   restMean.setZero();

@@ -3,8 +3,6 @@
 #include <Eigen/Dense>
 #include <numbers>
 
-#include "bound/composite_reference.h"
-
 namespace mortier {
 namespace {
 

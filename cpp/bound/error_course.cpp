@@ -1,4 +1,4 @@
-#include "bound/error_course.h"
+#include "bound/flowing_body.h"
 
 #include <cmath>
 #include <limits>

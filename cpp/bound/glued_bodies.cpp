@@ -1,6 +1,4 @@
-#include "bound/glued_bodies.h"
-
-#include <algorithm>
+#include "bound/quantity_bound.h"
 
 #include "base/dense_templates.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "base/dense_templates.h"
 #include "base/interrupt.h"

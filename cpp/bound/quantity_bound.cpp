@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "bound/glued_bodies.h"
 #include "bound/pressures.h"
 #include "material/stress.h"
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bound/airy_system.h"
-
 namespace mortier {
 namespace {
 

@@ -13,9 +13,13 @@
 // they may stop at any time.
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "bound/side_tractions.h"
+#include "linear/condensing_solver.h"
 
 namespace mortier {
 
@@ -55,6 +59,77 @@ class Relaxation {
   const std::vector<BodyLoad>& forces_;
   const std::vector<KnownTraction>& known_;
   SideMoments& moments_;
+};
+
+// The energy of what Airy functions add to a stress,
+//
+//   E(x) = E(0) - 2 b'x + x'K x,
+//
+// x their modes: value and gradient at each vertex, the mean normal derivative at each side. With
+// K = D + L + L', D the blocks of vertices and the diagonal of sides, vertices before sides, conjugate
+// gradients preconditioned by symmetric Gauss-Seidel, (D + L) D^-1 (D + L'), work with
+//
+//   (D + L)^-1 K (D + L')^-1 p = t + (D + L)^-1 (p - D t),      t = (D + L')^-1 p,
+//
+// which reads K once an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981)). E falls in each. Modes of
+// thin triangles hang together so stiffly that sweeps over them one by one are slow: they are one block of D,
+// the last, which is factorised.
+
+class AirySystem {
+ public:
+  /// \param thin  triangles whose modes are one block
+  AirySystem(const TriangleMesh& mesh, const Sides& sides, const std::vector<int>& thin);
+
+  /// Adds a triangle: \param K, b  by its modes, those of sides with the normals of `sides`; rows and columns
+  /// of modes that are not allowed are 0. \param energy  of E(0)
+  void add(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf, const MomentMatrix& K,
+           const AiryModes& b, double energy);
+
+  /// \pre all triangles have been added \returns whether the block could be factorised
+  bool factorise();
+  /// Lowers E until what more iterations could take, as their gains fade, is no more than a part of it.
+  /// \returns whether it is after `most` of them \throws Interrupted
+  bool solve(double part, int most);
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] Eigen::Vector3d atVertex(int vertex) const { return x_.segment<3>(stride * vertex); }
+  [[nodiscard]] double atSide(int side) const { return x_[firstSide_ + side]; }
+
+ private:
+  /// Modes of vertices are held with a 0 behind them, and what multiplies them, too.
+  static constexpr int stride = 4;
+  using Block = Eigen::Matrix<double, stride, 3>;
+  /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
+  /// ends with each other; with sides of greater number.
+  struct Coupling {
+    std::array<int, 4> vertices, others;
+    Block ends = Block::Zero();
+    Eigen::Matrix4d withVertices = Eigen::Matrix4d::Zero();  ///< columns
+    Eigen::Vector4d withOthers = Eigen::Vector4d::Zero();
+    double own = 0;
+  };
+  void addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
+                   const MomentMatrix& K);
+  static auto at(Vector& f, int vertex) { return f.segment<stride>(stride * vertex); }
+  void solveBlock(Vector& f) const;
+  void forward(Vector& f) const;   ///< f becomes (D + L)^-1 f
+  void backward(Vector& f) const;  ///< f becomes (D + L')^-1 f
+  void multiplyDiagonal(const Vector& f, Vector& result) const;
+  void invertDiagonal();
+
+  int vertices_, firstSide_;
+  std::vector<Coupling> sides_;
+  std::vector<int> sidesFrom_;  ///< the sides of which a vertex is the lower end: those from here on
+  std::vector<Block> diagonal_, inverse_;
+  std::vector<char> joined_;  ///< by modes, whether they are in the block; empty where none is
+  std::vector<int> inBlock_;  ///< modes of its equations: those that are allowed
+  using Entry = Eigen::Triplet<double>;
+  std::vector<Entry> ofBlock_;         ///< to be assembled
+  std::vector<Entry> toBlock_;         ///< rows are modes of the block, columns others
+  Eigen::SparseMatrix<double> block_;  ///< its lower triangle
+  std::unique_ptr<CondensingSolver> blockSolver_;
+  Vector b_, x_;
+  double energy_ = 0;
+  int iterations_ = 0;
 };
 
 }  // namespace mortier

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/dense_templates.h"
-#include "bound/composite_reference.h"
+#include "bound/composite_triangle.h"
 #include "material/stress.h"
 #include "mesh/triangle_sides.h"
 
@@ -93,7 +93,7 @@ class VertexBalance {
 
   /// The same for any vertex.
   void solve(int vertex) {
-    const Sides::Range around = sides_.sidesAt(vertex);
+    const std::span<const int> around = sides_.sidesAt(vertex);
     const auto columns = static_cast<Eigen::Index>(around.size());
     Eigen::Index rows = 2 * static_cast<Eigen::Index>(sides_.trianglesAt(vertex).size());
     for (const int side : around)

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bound/composite_triangle.h"
@@ -46,18 +47,16 @@ class Sides {
   [[nodiscard]] int of(int triangle, int k) const { return ofTriangle_[3 * triangle + k] >> 1; }
   [[nodiscard]] bool left(int triangle, int k) const { return (ofTriangle_[3 * triangle + k] & 1) == 0; }
   /// Sides at a vertex, and triangles.
-  struct Range {
-    const int* first;
-    const int* last;
-    [[nodiscard]] const int* begin() const { return first; }
-    [[nodiscard]] const int* end() const { return last; }
-    [[nodiscard]] size_t size() const { return last - first; }
-  };
-  [[nodiscard]] Range sidesAt(int vertex) const { return rangeOf(sideStart_, sidesAt_, vertex); }
-  [[nodiscard]] Range trianglesAt(int vertex) const { return rangeOf(triangleStart_, trianglesAt_, vertex); }
+  [[nodiscard]] std::span<const int> sidesAt(int vertex) const {
+    return rangeOf(sideStart_, sidesAt_, vertex);
+  }
+  [[nodiscard]] std::span<const int> trianglesAt(int vertex) const {
+    return rangeOf(triangleStart_, trianglesAt_, vertex);
+  }
 
  private:
-  static Range rangeOf(const std::vector<int>& start, const std::vector<int>& all, int vertex) {
+  static std::span<const int> rangeOf(const std::vector<int>& start, const std::vector<int>& all,
+                                      int vertex) {
     return {all.data() + start[vertex], all.data() + start[vertex + 1]};
   }
   std::vector<Side> sides_;

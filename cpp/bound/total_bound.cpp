@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include "base/interrupt.h"

@@ -1,4 +1,4 @@
-#include "bound/triangle_datum.h"
+#include "bound/side_datum.h"
 
 #include <Eigen/LU>
 #include <algorithm>

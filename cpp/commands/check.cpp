@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "base/printable.h"
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
@@ -28,18 +28,16 @@ void print(const Json& json) {
 
 int listKinds(bool json) {
   Json list = Json::array();
-  for (const FaultKind& kind : faultKinds()) {
+  for (const FaultKind& kind : faultKinds())
     list.push_back(
         {{"id", kind.id}, {"severity", word(kind.severity)}, {"what", kind.what}, {"remedy", kind.remedy}});
-  }
   if (json) {
     print(list);
     return exitDone;
   }
-  for (const FaultKind& kind : faultKinds()) {
+  for (const FaultKind& kind : faultKinds())
     std::printf("| `%s` | %s | %s | %s |\n", kind.id.c_str(), word(kind.severity).c_str(), kind.what.c_str(),
                 kind.remedy.c_str());
-  }
   return exitDone;
 }
 
@@ -47,19 +45,17 @@ Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
   Json json;
   json["scene"] = scene;
   json["plan"] = Json::array();
-  for (const PlanItem& item : plan) {
+  for (const PlanItem& item : plan)
     json["plan"].push_back(
         {{"part", item.part}, {"modelled", item.modelled}, {"what", item.what}, {"why", item.why}});
-  }
   json["faults"] = Json::array();
-  for (const Fault& fault : faults.all()) {
+  for (const Fault& fault : faults.all())
     json["faults"].push_back({{"id", fault.kind->id},
                               {"severity", word(fault.kind->severity)},
                               {"place", printable(fault.place)},
                               {"message", printable(fault.message)},
                               {"remedy", fault.kind->remedy},
                               {"more", fault.more}});
-  }
   return json;
 }
 
@@ -99,9 +95,7 @@ int check(const SceneOptions& command, bool json) {
     print(asJson(command.scene, plan, faults));
   } else {
     std::fputs(planText(plan).c_str(), stdout);
-    for (const Fault& fault : faults.all()) {
-      std::puts(printable(oneLine(fault)).c_str());
-    }
+    for (const Fault& fault : faults.all()) std::puts(printable(oneLine(fault)).c_str());
     std::printf("%s, %s\n", counted(wrong + unheld, "error").c_str(),
                 counted(faults.count(Severity::warning), "warning").c_str());
   }

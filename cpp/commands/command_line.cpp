@@ -74,10 +74,9 @@ void finishStandardOutput() {
   errno = 0;
   std::cout.flush();
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
-  if (failed && errno != EPIPE) {
+  if (failed && errno != EPIPE)
     throw OutputError(std::string("standard output: cannot be written") +
                       (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
-  }
 }
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -13,10 +14,11 @@
 #include "commands/command_line.h"
 #include "fem/element.h"
 #include "mesh/boundary_line.h"
-#include "mesh/gmsh.h"
-#include "mesh/medit.h"
+#include "mesh/read.h"
+#include "plan/loads.h"
 #include "scene/build.h"
 #include "scene/document.h"
+#include "scene/keys.h"
 
 namespace mortier {
 
@@ -152,45 +154,42 @@ std::string distances(const SceneDescription& scene, const Model& model) {
          (moves ? "macro distancesMove yes //  they change in time\n" : "");
 }
 
+/// Of every interface, between commas.
+std::string ofContacts(const SceneDescription& scene,
+                       const std::function<std::string(const ContactDescription&)>& of) {
+  std::string list;
+  for (const ContactDescription& contact : scene.contacts) list += (list.empty() ? "" : ", ") + of(contact);
+  return list;
+}
+
 /// Of every interface; none where there is no friction.
 std::string friction(const SceneDescription& scene) {
-  std::string coefficients;
-  std::string limits;
-  bool any = false;
-  for (const ContactDescription& contact : scene.contacts) {
-    const std::string comma = coefficients.empty() ? "" : ", ";
-    coefficients += comma + shortest(contact.friction.coefficient);
-    limits += comma + shortest(contact.friction.limit);
-    any = any || contact.friction.any();
-  }
-  if (!any) return "";
+  if (!hasFriction(scene)) return "";
   return "macro rough yes //  friction of each: Coulomb's coefficient, Tresca's limit\nreal[int] friction = "
          "[" +
-         coefficients + "], shearLimit = [" + limits + "];\n";
+         ofContacts(scene, [](const auto& contact) { return shortest(contact.friction.coefficient); }) +
+         "], shearLimit = [" +
+         ofContacts(scene, [](const auto& contact) { return shortest(contact.friction.limit); }) + "];\n";
 }
 
 /// Of every interface, whether contact follows the bodies; none where it does nowhere.
 std::string sliding(const SceneDescription& scene) {
-  std::string list;
-  bool any = false;
-  for (const ContactDescription& contact : scene.contacts) {
-    const bool follows = contact.sliding == SlidingKind::finite;
-    list += (list.empty() ? "" : ", ") + std::to_string(static_cast<int>(follows));
-    any = any || follows;
-  }
-  if (!any) return "";
+  const std::string list = ofContacts(
+      scene, [](const auto& contact) { return contact.sliding == SlidingKind::finite ? "1" : "0"; });
+  if (list.find('1') == std::string::npos) return "";
   return "macro sliding yes //  contact follows the bodies\nint[int] slidesFar = [" + list + "];\n";
 }
 
 /// One word where all interfaces have the same.
 std::string variants(const SceneDescription& scene) {
-  std::vector<std::string> words;
-  for (const ContactDescription& contact : scene.contacts) words.push_back(word(contact.variant));
-  std::string list;
-  for (const std::string& each : words) list += (list.empty() ? "\"" : ", \"") + each + '"';
-  const bool same = std::equal(words.begin() + 1, words.end(), words.begin());
-  return "string variant = \"" + words.front() + "\";\n" +
-         (same ? "" : "macro severalVariants yes //\nstring[int] variants = [" + list + "];\n");
+  const CouplingKind first = scene.contacts.front().variant;
+  const bool same = std::all_of(scene.contacts.begin(), scene.contacts.end(),
+                                [&](const ContactDescription& contact) { return contact.variant == first; });
+  const auto quotedWord = [](const auto& contact) { return '"' + word(contact.variant) + '"'; };
+  return "string variant = \"" + word(first) + "\";\n" +
+         (same ? ""
+               : "macro severalVariants yes //\nstring[int] variants = [" + ofContacts(scene, quotedWord) +
+                     "];\n");
 }
 
 /// Other labels than those of SI.
@@ -284,17 +283,6 @@ std::string freefemObstacle(const SceneDescription& scene, const Model& model, b
 
 namespace {
 
-/// The cells of a line without quotes.
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result(1);
-  for (const char c : line)
-    if (c == ',')
-      result.emplace_back();
-    else if (c != '\r')
-      result.back() += c;
-  return result;
-}
-
 /// The ends of the steps of a run, ascending, from the history.csv in its folder [s, or the run's unit].
 /// \throws InputError where there is none, or it is not of a run to `end` from time 0
 std::vector<double> stepsOfRun(const std::string& folder, double end) {
@@ -307,12 +295,12 @@ std::vector<double> stepsOfRun(const std::string& folder, double end) {
   std::string line;
   if (!std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
   size_t column = 0;
-  const std::vector<std::string> names = cells(line);
+  const Keys names = split(line, ',');
   while (column < names.size() && names[column].compare(0, 5, "time[") != 0) ++column;
   if (column == names.size()) refuse(1, "no column time[...]", "the history of a run");
   std::vector<double> times;
   for (int number = 2; std::getline(file, line); ++number) {
-    const std::vector<std::string> row = cells(line);
+    const Keys row = split(line, ',');
     double time = 0;
     const std::string text = column < row.size() ? row[column] : "";
     const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), time);

@@ -18,9 +18,8 @@ const std::map<std::string, std::string>& freefemWords() {
     std::map<std::string, std::string> same;
     for (const char* word :
          {"pi",    "sin",   "cos", "tan", "asin",  "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh",
-          "acosh", "atanh", "exp", "log", "log10", "sqrt", "abs",  "min",   "max",  "sign", "rint"}) {
+          "acosh", "atanh", "exp", "log", "log10", "sqrt", "abs",  "min",   "max",  "sign", "rint"})
       same[word] = word;
-    }
     same["ln"] = "log";
     same["_pi"] = "pi";
     same["_e"] = "exp(1.)";

@@ -13,7 +13,6 @@
 #include "material/stress.h"
 #include "plan/loads.h"
 #include "scene/build.h"
-#include "scene/document.h"
 
 namespace mortier {
 namespace {
@@ -118,8 +117,7 @@ int tryLaws(const LawOptions& command) {
     for (const MaterialDescription* description : materialsOf(body)) {
       MaterialDescription inItsAxes = *description;
       if (inItsAxes.anisotropy) inItsAxes.anisotropy->angle.reset();
-      const auto material =
-          scene.inSpace() ? buildSpaceMaterial(inItsAxes, {}) : buildMaterial(inItsAxes, scene.plane, {});
+      const auto material = buildMaterial(inItsAxes, scene.inSpace() ? Plane::none : scene.plane);
       const auto* own = description->as<OwnLaw>();
       const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
       std::string name = "body " + body.name;

@@ -7,14 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "base/counted.h"
 #include "base/digits.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/command_line.h"
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
-#include "mesh/medit.h"
 #include "mesh/read.h"
 
 namespace mortier {
@@ -48,10 +46,9 @@ std::pair<Number, Number> parsePair(const std::string& option, const std::string
     Number value{};
     const char* last = text.data() + end;
     const auto [stop, status] = std::from_chars(text.data() + begin, last, value);
-    if (status != std::errc() || stop != last) {
+    if (status != std::errc() || stop != last)
       throw InputError(option + " " + text + ": expected " + (single ? "N or NX,NY" : "X,Y") + ", e.g. " +
                        (single ? "6 or 6,4" : "0,-1"));
-    }
     return value;
   };
   const size_t comma = text.find(',');
@@ -74,9 +71,7 @@ Value parseWord(const std::string& option, const std::string& text,
                 const std::vector<std::pair<std::string, Value>>& words) {
   std::string known;
   for (const auto& [word, value] : words) {
-    if (word == text) {
-      return value;
-    }
+    if (word == text) return value;
     known += (known.empty() ? "" : ", ") + word;
   }
   throw InputError(option + " " + text + ": expected one of " + known);
@@ -117,9 +112,7 @@ Made make(const MeshOptions& command) {
                                  {{"rising", Cut::rising}, {"falling", Cut::falling}, {"both", Cut::both}});
   if (command.family == "quadrilateral") {
     Quadrilateral shape{{}, cells1, cells2};
-    for (size_t k = 0; k < 4; ++k) {
-      shape.corners[k] = parsePoint("--corners", command.corners.at(k));
-    }
+    for (size_t k = 0; k < 4; ++k) shape.corners[k] = parsePoint("--corners", command.corners.at(k));
     return {quadrilateralMesh(shape, cut), "1, 2, 3, 4: side k from corner k to the next"};
   }
   if (command.family == "annulus") {
@@ -138,14 +131,11 @@ Made make(const MeshOptions& command) {
                 (quarter ? ", 4 vertical side" : "")};
   }
   Rectangle shape{parsePoint("--lower", command.lower), parsePoint("--upper", command.upper), cells1, cells2};
-  if (!command.focus.empty()) {
-    shape.focus = parsePoint("--focus", command.focus);
-  }
+  if (!command.focus.empty()) shape.focus = parsePoint("--focus", command.focus);
   const auto [x, y] = parsePair<double>("--grading", command.grading, true);
   shape.grading = {x, y};
-  if (command.focus.empty() && shape.grading != Point(1, 1)) {
+  if (command.focus.empty() && shape.grading != Point(1, 1))
     throw InputError("--grading " + command.grading + ": expected with --focus X,Y");
-  }
   return {command.family == "crisscross" ? crissCrossMesh(shape) : rectangleMesh(shape, cut),
           "1 bottom, 2 right, 3 top, 4 left"};
 }
@@ -268,10 +258,9 @@ int describeMesh(const std::string& file, const TriangleMesh& mesh) {
     side.length += (mesh.vertices[b] - mesh.vertices[a]).norm();
     side.around.extend(mesh.vertices[a]).extend(mesh.vertices[b]);
   }
-  for (const auto& [label, side] : sides) {
+  for (const auto& [label, side] : sides)
     std::printf("label %-5d %s, length %.9g%s: %s\n", label, counted(side.edges, "edge").c_str(), side.length,
                 named(mesh.labelNames, label).c_str(), extentsOf(side.around, size).c_str());
-  }
   printRegions<3>(mesh.regions, mesh.regionNames);
   return exitDone;
 }

@@ -49,10 +49,9 @@ std::string pythonProgram() {
 /// MORTIER in its environment is this program. \throws OutputError when Python or the program cannot be found
 [[noreturn]] void becomePython(const std::string& folder, const std::vector<std::string>& words) {
   const auto program = shippedFolder(folder, "__main__.py");
-  if (!program) {
+  if (!program)
     throw OutputError("the folder " + folder + "/ of mortier (" + folder +
                       "/__main__.py) is found neither above the program nor in share/mortier");
-  }
   std::error_code ignored;
   const std::string self = fs::read_symlink("/proc/self/exe", ignored).string();
   if (!self.empty()) setenv("MORTIER", self.c_str(), 1);

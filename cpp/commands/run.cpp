@@ -1,7 +1,6 @@
 #include "commands/run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,12 +9,12 @@
 #include "base/checksum.h"
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "mesh/medit.h"
+#include "mesh/read.h"
 #include "plan/estimate_doubts.h"
 #include "plan/loads.h"
 #include "report/clock.h"
-#include "report/output_file.h"
-#include "report/summary.h"
+#include "report/log.h"
+#include "report/manifest.h"
 #include "scene/build.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"

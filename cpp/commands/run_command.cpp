@@ -56,10 +56,9 @@ void repeatRequest(const RunIdentity& stored, RunCommand& command) {
   std::error_code error;
   command.restart = fs::absolute(command.restart).string();
   fs::current_path(stored.workingFolder, error);
-  if (error) {
+  if (error)
     throw InputError(command.restart + ": begun in " + stored.workingFolder +
                      ", which is not there, expected SCENE.toml and its --set as well");
-  }
   command.scene = stored.scene;
   command.settings = stored.settings;
 }

@@ -7,7 +7,7 @@
 #include "commands/run.h"
 #include "report/clock.h"
 #include "report/result_files.h"
-#include "solver/threads_for.h"
+#include "solver/model.h"
 #include "time/parts_of_run.h"
 
 namespace mortier {

@@ -1,4 +1,4 @@
-#include "contact/arcs.h"
+#include "contact/smooth_part.h"
 
 #include <algorithm>
 #include <cmath>

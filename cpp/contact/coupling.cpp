@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contact/row_functions.h"
-#include "mesh/axis.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {
@@ -17,7 +17,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLDLT<Sparse>;
 
 /// Smaller entries of C, which has no unit, change no bit of what is computed with them.
-constexpr double nothing = 1e-25;
+constexpr double negligible = 1e-25;
 
 /// Entries of a row at the nodes of an element: columns 2 node + component.
 void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const Point& direction,
@@ -102,7 +102,7 @@ Sparse projected(const Factor& mass, const Sparse& B) {
     if (B.col(j).nonZeros() == 0) continue;
     const Vector column = mass.solve(Vector(B.col(j)));
     for (Eigen::Index i = 0; i < column.size(); ++i)
-      if (std::abs(column[i]) > nothing) entries.emplace_back(static_cast<int>(i), j, column[i]);
+      if (std::abs(column[i]) > negligible) entries.emplace_back(static_cast<int>(i), j, column[i]);
   }
   return assembled(B.rows(), B.cols(), entries);
 }
@@ -158,7 +158,7 @@ Sparse projected(const Sparse& Phi, const Sparse& B) {
         for (Sparse::InnerIterator b(B, j); b; ++b) column[placeOf[b.row()]] = b.value();
         column = factor.solve(column).eval();
         for (Eigen::Index i = 0; i < n; ++i) {
-          if (!(std::abs(column[i]) > nothing)) continue;
+          if (!(std::abs(column[i]) > negligible)) continue;
           all = all && i < static_cast<Eigen::Index>(near.edge);
           entries.emplace_back(near.rows[i], j, column[i]);
         }

@@ -1,5 +1,6 @@
 #include "contact/facing_line.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,7 @@ namespace mortier {
 namespace {
 
 /// Lines face each other up to this angle between their directions: cos 60 degrees.
-constexpr double facing = 0.5;
+constexpr double leastFacing = 0.5;
 /// Abscissae closer to an end of the part than this part of the element there are on it.
 constexpr double sameEdgeEnd = 1e-9;
 /// Places on an element that differ by less are one.
@@ -149,7 +150,7 @@ class Search {
       return false;
     const Point n = (a.normal + b.normal).normalized();
     const Point d = (mortar_.points[within(element) + 1] - mortar_.points[within(element)]).normalized();
-    return Point(-n.y(), n.x()).dot(d) > facing;
+    return Point(-n.y(), n.x()).dot(d) > leastFacing;
   }
 
   /// The least distance of an element over the part, infinite where it is not over it.
@@ -164,15 +165,11 @@ class Search {
   }
 
   int nearest() {
-    Point low = part_.points.front();
-    Point high = low;
-    for (const Point& x : part_.points) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
+    Eigen::AlignedBox2d box;
+    for (const Point& x : part_.points) box.extend(x);
     int seed = -1;
     double distance = std::numeric_limits<double>::infinity();
-    mortar_.tree.near(low, high, distance, [&](int element) {
+    mortar_.tree.near(box.min(), box.max(), distance, [&](int element) {
       if (!faces(element)) return;
       const double here = distanceOf(element);
       if (here < distance) {
@@ -249,19 +246,8 @@ double bulgeOf(const SmoothPart* drawn, int element, double xi, const Arc& arc,
                     {cosine * n.x() - sine * n.y(), sine * n.x() + cosine * n.y()});
 }
 
-/// The element of the mortar line that holds s, the end elements beyond the ends.
-int elementAt(const FacingLine& mortar, double s) {
-  return static_cast<int>(std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s) - mortar.s.begin()) -
-         1;
-}
-
-/// A node of the part: its element and its abscissa.
-struct Place {
-  int element = 0;
-  double s = 0;
-};
-
-Place placeOf(const SmoothPart& part, int node) {
+/// Of a node of the part: its element and its abscissa.
+std::pair<int, double> placeOf(const SmoothPart& part, int node) {
   const auto vertices = static_cast<int>(part.nodes.size());
   if (node < vertices) return {std::min(node, part.elements() - 1), part.s[node]};
   const int element = node - vertices;
@@ -348,7 +334,9 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
 
 Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node) {
   const auto [element, s] = placeOf(part, node);
-  const Segment place{element, elementAt(mortar, std::clamp(s, mortar.s.front(), mortar.s.back())), s, s};
+  // The element of the mortar line that holds s, the end elements beyond the ends.
+  const auto after = std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s);
+  const Segment place{element, static_cast<int>(after - mortar.s.begin()) - 1, s, s};
   return {see(part, mortar, place, s), place};
 }
 

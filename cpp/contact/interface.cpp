@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "contact/interface_entries.h"
-#include "mesh/label_text.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/axis.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {

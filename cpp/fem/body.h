@@ -15,7 +15,6 @@
 #include "fem/supports.h"
 #include "fem/tangent_assembly.h"
 #include "material/material.h"
-#include "mesh/axis.h"
 #include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 
@@ -71,9 +70,9 @@ struct BodyCut {
 class Body {
  public:
   /// \param degree  of the displacements, 1 or 2
-  /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/axis.h): the material has four
+  /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/triangle_mesh.h): the material has four
   /// components then, integrals are of the whole ring, and forces are in [N]
-  /// \param averaged  whether its material sees an averaged volumetric strain (fem/volume_patches.h)
+  /// \param averaged  whether its material sees an averaged volumetric strain (fem/tangent_assembly.h)
   /// \throws InputError when a condition names a label or a point that the mesh does not have, where a
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,

@@ -1,7 +1,7 @@
 // What a body does in every iteration, triangle by triangle.
 
-#include "base/double_double.h"
 #include "base/lanes.h"
+#include "base/two_part_vector.h"
 #include "fem/body.h"
 #include "fem/element.h"
 
@@ -29,12 +29,6 @@ class OfPatches {
   std::array<std::array<Value, 3>, kept> values_;
 };
 
-DoubleDouble times(double factor, const DoubleDouble& value) {
-  DoubleDouble product = DoubleDouble::product(factor, value.high);
-  product.low += factor * value.low;
-  return product;
-}
-
 }  // namespace
 
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
@@ -43,7 +37,7 @@ DoubleDouble times(double factor, const DoubleDouble& value) {
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
 //
 // Where the volumetric strain is averaged, p is the sum of the polynomials of the patch less the
-// circumference over sqrt2 (fem/volume_patches.h).
+// circumference over sqrt2 (fem/tangent_assembly.h).
 
 Vector Body::internalForce(const Matrix& stress) const {
   if (space_) return space_->internalForce(stress);
@@ -125,25 +119,26 @@ void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& st
     const auto nodes = patches_->nodes(patch);
     const int first = 2 * *nodes.begin();
     for (int k = 0; k < terms; ++k)
-      sums[k] = times(patches_->uniform(patch, k), {u.high[first], u.low[first]});
+      sums[k] = DoubleDouble::product(patches_->uniform(patch, k), {u.high[first], u.low[first]});
     for (size_t a = 1; a < nodes.size(); ++a)
       for (const int c : {0, 1}) {
         const int dof = 2 * nodes.first[a] + c;
         DoubleDouble change = DoubleDouble::sum(u.high[dof], -u.high[first + c]);
         change.low += u.low[dof] - u.low[first + c];
-        for (int k = 0; k < terms; ++k) sums[k] += times(patches_->row(patch, k)[2 * a + c], change);
+        for (int k = 0; k < terms; ++k)
+          sums[k] += DoubleDouble::product(patches_->row(patch, k)[2 * a + c], change);
       }
   };
   OfPatches<DoubleDouble, decltype(find)> ofPatches(find);
   for (int i = begin; i < end; ++i) {
     const std::array<DoubleDouble, 3>& sums = ofPatches(patches_->patchOf()[i / ofTriangle]);
     const double* basis = patches_->basis(i);
-    DoubleDouble p = times(basis[0], sums[0]);
-    for (int k = 1; k < terms; ++k) p += times(basis[k], sums[k]);
+    DoubleDouble p = DoubleDouble::product(basis[0], sums[0]);
+    for (int k = 1; k < terms; ++k) p += DoubleDouble::product(basis[k], sums[k]);
     const int* triangle = nodes_.of(i / ofTriangle);
     for (int a = 0; a < n && axisymmetric_; ++a)
-      p += times(-overRoot2 * hoops_[static_cast<size_t>(n) * i + a],
-                 {u.high[2 * triangle[a]], u.low[2 * triangle[a]]});
+      p += DoubleDouble::product(-overRoot2 * hoops_[static_cast<size_t>(n) * i + a],
+                                 {u.high[2 * triangle[a]], u.low[2 * triangle[a]]});
     if (shift != nullptr) p += DoubleDouble{-(*shift)(0, i), 0};
     strain(0, i) = p.value();
   }
@@ -157,9 +152,7 @@ void Body::hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strai
     DoubleDouble sum{0, 0};
     for (int a = 0; a < n; ++a) {
       const double overRadius = hoops_[static_cast<size_t>(n) * i + a];
-      DoubleDouble product = DoubleDouble::product(overRadius, u.high[2 * triangle[a]]);
-      product.low += overRadius * u.low[2 * triangle[a]];
-      sum += product;
+      sum += DoubleDouble::product(overRadius, {u.high[2 * triangle[a]], u.low[2 * triangle[a]]});
     }
     if (shift != nullptr) sum += DoubleDouble{-(*shift)(3, i), 0};
     strain(3, i) = sum.value();
@@ -200,11 +193,7 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
         d[k] = DoubleDouble::sum(u1[k][lane], -u0[k][lane]);
         d[k].low += smallChange[k][lane];
       }
-      const auto times = [&](int g, int k) {
-        DoubleDouble product = DoubleDouble::product(G[g][lane], d[k].high);
-        product.low += G[g][lane] * d[k].low;
-        return product;
-      };
+      const auto times = [&](int g, int k) { return DoubleDouble::product(G[g][lane], d[k]); };
       DoubleDouble xx = times(0, 0);
       DoubleDouble yy = times(1, 1);
       DoubleDouble xy = times(1, 0);

@@ -4,7 +4,6 @@
 #include "fem/element.h"
 
 namespace mortier {
-namespace {}  // namespace
 
 template <class Element>
 Eigen::Matrix<double, 2 * Element::nodes, 2 * Element::nodes> Body::triangleTangent(

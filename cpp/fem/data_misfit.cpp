@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/dense_templates.h"
-#include "mesh/edge_element.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 namespace {

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "base/types.h"
-#include "mesh/edge_element.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 
@@ -32,6 +32,14 @@ struct EdgePoint {
   std::array<double, n> toNode;
 };
 
+/// Of an element at its quadrature points.
+template <int nodes, int points>
+struct Tabulation {
+  std::array<double, points> weights{};                           ///< their sum is the area [m^2]
+  std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;  ///< [1/m]; they sum to zero
+  std::array<Point, points> places;                               ///< [m]
+};
+
 /// Displacement linear on the triangle, strain and stress constant: one quadrature point.
 struct LinearTriangle {
   static constexpr int nodes = 3;
@@ -40,16 +48,11 @@ struct LinearTriangle {
   static constexpr bool straight = true;  ///< its sides
   static constexpr std::array<Barycentric, points> interior{{{1.0 / 3, 1.0 / 3, 1.0 / 3}}};
 
-  struct Tabulation {
-    std::array<double, points> weights{};                           ///< their sum is the area [m^2]
-    std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;  ///< [1/m]; they sum to zero
-    std::array<Point, points> places;                               ///< [m]
-  };
-  static Tabulation tabulate(const std::array<Point, nodes>& x) {
+  static Tabulation<nodes, points> tabulate(const std::array<Point, nodes>& x) {
     const Point e1 = x[1] - x[0];
     const Point e2 = x[2] - x[0];
     const double twiceArea = cross(e1, e2);
-    Tabulation result;
+    Tabulation<nodes, points> result;
     result.weights[0] = twiceArea / 2;
     auto& gradients = result.gradients[0];
     gradients.col(1) = Point(e2.y(), -e2.x()) / twiceArea;
@@ -123,16 +126,11 @@ struct QuadraticTriangle {
     return J;
   }
 
-  struct Tabulation {
-    std::array<double, points> weights{};
-    std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;
-    std::array<Point, points> places;
-  };
   static constexpr std::array<Barycentric, points> interior{
       {{2.0 / 3, 1.0 / 6, 1.0 / 6}, {1.0 / 6, 2.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 6, 2.0 / 3}}};
 
-  static Tabulation tabulate(const std::array<Point, nodes>& x) {
-    Tabulation result;
+  static Tabulation<nodes, points> tabulate(const std::array<Point, nodes>& x) {
+    Tabulation<nodes, points> result;
     for (int q = 0; q < points; ++q) {
       const Eigen::Matrix<double, 2, nodes> d = derivatives(interior[q]);
       const Eigen::Matrix2d J = jacobian(d, x);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "fem/element.h"
 
 namespace mortier {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fem/body.h"
-#include "material/pointwise.h"
+#include "material/parts.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -102,7 +102,7 @@ Body::Body(const Body& whole, const BodyCut& cut)
   gradients_ = taken(whole.gradients_, cut.triangles, 2 * (n - 1) * each);
   hoops_ = taken(whole.hoops_, cut.triangles, n * each);
   if (whole.patches_) {
-    // Patches are whole (solver/body_part.h), in the order of their first triangles.
+    // Patches are whole (solver/model.h), in the order of their first triangles.
     std::vector<int> patchOf = taken(whole.patches_->patchOf(), cut.triangles);
     std::vector<int> known = patchOf;
     std::sort(known.begin(), known.end());

@@ -1,11 +1,10 @@
 #include "fem/space_elements.h"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 
-#include "base/double_double.h"
 #include "base/error.h"
+#include "base/two_part_vector.h"
 #include "fem/tetrahedron.h"
 
 namespace mortier {
@@ -183,9 +182,7 @@ void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& 
           DoubleDouble d = DoubleDouble::sum(u.high[dof], -u.high[dof0]);
           d.low += u.low[dof] - u.low[dof0];
           for (int k = 0; k < 3; ++k) {
-            DoubleDouble product = DoubleDouble::product(G[k], d.high);
-            product.low += G[k] * d.low;
-            gradient[3 * c + k] += product;
+            gradient[3 * c + k] += DoubleDouble::product(G[k], d);
           }
         }
       const auto plus = [](DoubleDouble a, const DoubleDouble& b, double times = 1) {
@@ -193,8 +190,7 @@ void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& 
         return a;
       };
       const auto store = [&](int row, const DoubleDouble& value, double factor = 1) {
-        DoubleDouble product = DoubleDouble::product(factor, value.high);
-        product.low += factor * value.low;
+        DoubleDouble product = DoubleDouble::product(factor, value);
         if (shift != nullptr) product += DoubleDouble{-(*shift)(row, i), 0};
         strain(row, i) = product.value();
       };

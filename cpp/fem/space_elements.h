@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/two_part_vector.h"
 #include "base/types.h"
-#include "linear/sparse_pattern.h"
+#include "linear/condensing_solver.h"
 #include "material/material.h"
 #include "mesh/tetrahedron_mesh.h"
 

@@ -2,11 +2,10 @@
 // displacements, fitted to the points of the tetrahedra around it that are of one region; with too few of
 // them those around its neighbours count too. Points next to a vertex weigh more where the fit is quadratic.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "base/blocks.h"
 #include "base/dense_templates.h"
+#include "base/parallel.h"
 #include "fem/error_estimate.h"
 #include "fem/tetrahedron.h"
 

@@ -1,4 +1,4 @@
-#include "fem/volume_patches.h"
+#include "fem/tangent_assembly.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

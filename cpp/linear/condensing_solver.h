@@ -12,9 +12,20 @@
 #include "base/parallel.h"
 #include "base/ranks.h"
 #include "base/types.h"
-#include "linear/sparse_pattern.h"
 
 namespace mortier {
+
+// Which entries of a square sparse matrix exist, by columns.
+
+struct SparsePattern {
+  int size = 0;
+  bool symmetric = true;  ///< only the lower triangle (row >= column) is held; otherwise all of a pattern
+                          ///< that is structurally symmetric
+  std::vector<int> columnStart;  ///< size + 1
+  std::vector<int> rows;         ///< ascending in each column
+
+  [[nodiscard]] int entries() const { return static_cast<int>(rows.size()); }
+};
 
 class CondensingSolver {
  public:

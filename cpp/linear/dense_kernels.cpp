@@ -20,6 +20,8 @@ int blas_thread_shutdown_() __attribute__((weak));  // of OpenBLAS, where it has
 namespace mortier::dense {
 namespace {
 
+namespace stdx = std::experimental;
+
 /// Below this many pivots a call of BLAS costs more than the loops it saves.
 constexpr int smallPivots = 12;
 constexpr int smallRows = 96;
@@ -31,8 +33,7 @@ bool isSmall(int n, int pivots) {
 /// In two running sums of four: without leave to reorder, the compiler keeps one.
 template <class Real>
 Real dot(const Real* x, const Real* y, int n) {
-  using Eight = std::experimental::fixed_size_simd<Real, 8>;
-  namespace stdx = std::experimental;
+  using Eight = stdx::fixed_size_simd<Real, 8>;
   Eight sum = 0;
   int i = 0;
   for (; i + 8 <= n; i += 8) sum += Eight(x + i, stdx::element_aligned) * Eight(y + i, stdx::element_aligned);
@@ -56,8 +57,6 @@ bool finiteDiagonal(const Real* panel, int n, int pivots) {
     if (!std::isfinite(panel[static_cast<size_t>(n) * k + k])) return false;
   return true;
 }
-
-namespace stdx = std::experimental;
 
 /// Rows [i, i + size of Rows) and `columns` columns from j of update = -L21 U12; U12' and L21 by columns.
 template <class Rows, int columns, class Real>
@@ -95,28 +94,37 @@ void smallUpdate(const Real* L21, int ldL, int pivots, const Real* upper, int ld
   for (; j < rest; ++j) updateColumns<1>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
 }
 
-/// Rows and columns of a tile of a large front.
-constexpr int tile = 192;
+/// The tiles of a front; one where it is not worth several threads.
+class Tiles {
+ public:
+  Tiles(int n, int pivots, Threads& threads) : size(isLarge(n, pivots) ? 192 : n), threads_(threads) {}
 
-/// Calls work(begin, end) for the tiles of [from, to).
-template <class Work>
-void forEachTile(int from, int to, Threads& threads, const Work& work) {
-  threads.forEach((to - from + tile - 1) / tile,
-                  [&](int t) { work(from + tile * t, std::min(from + tile * (t + 1), to)); });
-}
+  const int size;  ///< rows and columns of a tile
 
-/// Calls work(row, rowEnd, column, columnEnd) for the tiles of rows [from, to) and columns [from, columns);
-/// with `lower`, for those on and below the diagonal.
-template <class Work>
-void forEachTile(int from, int to, int columns, bool lower, Threads& threads, const Work& work) {
-  std::vector<std::pair<int, int>> tiles;
-  for (int j = from; j < columns; j += tile)
-    for (int i = lower ? j : from; i < to; i += tile) tiles.emplace_back(i, j);
-  threads.forEach(static_cast<int>(tiles.size()), [&](int t) {
-    const auto [i, j] = tiles[t];
-    work(i, std::min(i + tile, to), j, std::min(j + tile, columns));
-  });
-}
+  /// Calls work(begin, end) for the tiles of [from, to).
+  template <class Work>
+  void forEach(int from, int to, const Work& work) const {
+    if (from < to)
+      threads_.forEach((to - from + size - 1) / size,
+                       [&](int t) { work(from + size * t, std::min(from + size * (t + 1), to)); });
+  }
+  /// Calls work(row, rowEnd, column, columnEnd) for the tiles of rows and columns [from, to); with `lower`,
+  /// for those on and below the diagonal.
+  template <class Work>
+  void forEachPair(int from, int to, bool lower, const Work& work) const {
+    std::vector<std::pair<int, int>> tiles;
+    for (int j = from; j < to; j += size)
+      for (int i = lower ? j : from; i < to; i += size) tiles.emplace_back(i, j);
+    if (!tiles.empty())
+      threads_.forEach(static_cast<int>(tiles.size()), [&](int t) {
+        const auto [i, j] = tiles[t];
+        work(i, std::min(i + size, to), j, std::min(j + size, to));
+      });
+  }
+
+ private:
+  Threads& threads_;
+};
 
 /// Rows [i, i1) and columns [j, j1) of C = beta C - A A', on and below the diagonal.
 template <class Real>
@@ -128,30 +136,30 @@ void subtractSquare(const Real* A, int ldA, int inner, Real beta, Real* C, int l
   if (below < i1) product(i1 - below, j1 - j, inner, A + below, A + j, ldA, beta, target + (below - i), ldC);
 }
 
-/// L11 of a large pivot block.
+/// L11.
 template <class Real>
-bool tiledCholesky(Real* panel, int n, int pivots, Threads& threads) {
-  for (int k = 0; k < pivots; k += tile) {
+bool tiledCholesky(Real* panel, int n, int pivots, const Tiles& tiles) {
+  for (int k = 0; k < pivots; k += tiles.size) {
     stopIfInterrupted();
-    const int next = std::min(k + tile, pivots);
+    const int next = std::min(k + tiles.size, pivots);
     const int width = next - k;
     Real* diagonal = panel + static_cast<size_t>(n) * k + k;
     if (!cholesky(width, diagonal, n)) return false;
-    forEachTile(next, pivots, threads,
-                [&](int i, int i1) { solveRight(i1 - i, width, diagonal, n, diagonal + (i - k), n); });
-    forEachTile(next, pivots, pivots, true, threads, [&](int i, int i1, int j, int j1) {
+    tiles.forEach(next, pivots,
+                  [&](int i, int i1) { solveRight(i1 - i, width, diagonal, n, diagonal + (i - k), n); });
+    tiles.forEachPair(next, pivots, true, [&](int i, int i1, int j, int j1) {
       subtractSquare<Real>(panel + static_cast<size_t>(n) * k, n, width, 1, panel, n, i, i1, j, j1);
     });
   }
   return true;
 }
 
-/// L11 and U11 of a large pivot block, rows interchanged.
-bool tiledLU(double* panel, int n, int pivots, int* interchange, Threads& threads) {
+/// L11 and U11, rows interchanged.
+bool tiledLU(double* panel, int n, int pivots, int* interchange, const Tiles& tiles) {
   const auto at = [&](int i, int j) { return panel + static_cast<size_t>(n) * j + i; };
-  for (int k = 0; k < pivots; k += tile) {
+  for (int k = 0; k < pivots; k += tiles.size) {
     stopIfInterrupted();
-    const int next = std::min(k + tile, pivots);
+    const int next = std::min(k + tiles.size, pivots);
     const int width = next - k;
     const int height = pivots - k;
     int info = 0;
@@ -163,13 +171,13 @@ bool tiledLU(double* panel, int n, int pivots, int* interchange, Threads& thread
       const int columns = j1 - j;
       dlaswp_(&columns, at(k, j), &n, &first, &width, interchange + k, &step);
     };
-    forEachTile(0, k, threads, swap);
-    forEachTile(next, pivots, threads, [&](int j, int j1) {
+    tiles.forEach(0, k, swap);
+    tiles.forEach(next, pivots, [&](int j, int j1) {
       swap(j, j1);
       cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, width, j1 - j, 1, at(k, k),
                   n, at(k, j), n);
     });
-    forEachTile(next, pivots, pivots, false, threads, [&](int i, int i1, int j, int j1) {
+    tiles.forEachPair(next, pivots, false, [&](int i, int i1, int j, int j1) {
       cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, i1 - i, j1 - j, width, -1, at(i, k), n, at(k, j),
                   n, 1, at(i, j), n);
     });
@@ -198,19 +206,13 @@ template <class Real>
 bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>* update, Threads& threads) {
   const int rest = n - pivots;
   Real* L21 = panel + pivots;
-  if (isLarge(n, pivots)) {
-    if (!tiledCholesky(panel, n, pivots, threads) || !finiteDiagonal(panel, n, pivots)) return false;
-    forEachTile(0, rest, threads, [&](int i, int i1) { solveRight(i1 - i, pivots, panel, n, L21 + i, n); });
-    forEachTile(0, rest, rest, true, threads, [&](int i, int i1, int j, int j1) {
+  if (!isSmall(n, pivots)) {
+    const Tiles tiles(n, pivots, threads);
+    if (!tiledCholesky(panel, n, pivots, tiles) || !finiteDiagonal(panel, n, pivots)) return false;
+    tiles.forEach(0, rest, [&](int i, int i1) { solveRight(i1 - i, pivots, panel, n, L21 + i, n); });
+    tiles.forEachPair(0, rest, true, [&](int i, int i1, int j, int j1) {
       subtractSquare<Real>(L21, n, pivots, 0, update, rest, i, i1, j, j1);
     });
-    return true;
-  }
-  if (!isSmall(n, pivots)) {
-    if (!cholesky(pivots, panel, n) || !finiteDiagonal(panel, n, pivots)) return false;
-    if (rest == 0) return true;
-    solveRight(rest, pivots, panel, n, L21, n);
-    squared(rest, pivots, L21, n, Real(0), update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
@@ -233,36 +235,22 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
                Threads& threads) {
   const int rest = n - pivots;
   double* L21 = panel + pivots;
-  if (isLarge(n, pivots)) {
-    const bool regular = tiledLU(panel, n, pivots, interchange, threads);
+  if (!isSmall(n, pivots)) {
+    const Tiles tiles(n, pivots, threads);
+    const bool regular = tiledLU(panel, n, pivots, interchange, tiles);
     for (int k = 0; k < pivots; ++k) --interchange[k];
     if (!regular || !finiteDiagonal(panel, n, pivots)) return false;
-    forEachTile(0, rest, threads, [&](int i, int i1) {
+    tiles.forEach(0, rest, [&](int i, int i1) {
       swapColumns(upper + i, rest, i1 - i, interchange, pivots);
       cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, i1 - i, pivots, 1, panel, n,
                   upper + i, rest);
       cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, i1 - i, pivots, 1, panel,
                   n, L21 + i, n);
     });
-    forEachTile(0, rest, rest, false, threads, [&](int i, int i1, int j, int j1) {
+    tiles.forEachPair(0, rest, false, [&](int i, int i1, int j, int j1) {
       cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, i1 - i, j1 - j, pivots, -1, L21 + i, n, upper + j,
                   rest, 0, update + static_cast<size_t>(rest) * j + i, rest);
     });
-    return true;
-  }
-  if (!isSmall(n, pivots)) {
-    int info = 0;
-    dgetrf_(&pivots, &pivots, panel, &n, interchange, &info);
-    for (int k = 0; k < pivots; ++k) --interchange[k];
-    if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
-    if (rest == 0) return true;
-    swapColumns(upper, rest, rest, interchange, pivots);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, rest, pivots, 1, panel, n,
-                upper, rest);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, panel, n,
-                L21, n);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, rest, pivots, -1, L21, n, upper, rest, 0,
-                update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "linear/sparse_pattern.h"
+#include "linear/condensing_solver.h"
 
 namespace mortier {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "linear/sparse_pattern.h"
+#include "linear/condensing_solver.h"
 
 namespace mortier {
 

@@ -2,7 +2,6 @@
 // and k the kept equations,
 //   S = sum over ranks of (K_rr - K_rb K_bb^-1 K_br),   r = s and k,
 // is a sparse matrix of dense blocks, one for each rank, from which s is eliminated in turn.
-#include <algorithm>
 #include <utility>
 
 #include "linear/condensing_solver.h"

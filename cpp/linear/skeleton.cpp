@@ -1,7 +1,6 @@
 #include "linear/skeleton.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace mortier {
 namespace {

@@ -5,12 +5,10 @@
 #include "base/error.h"
 #include "contact/sliding.h"
 #include "lint/lint.h"
-#include "lint/topology.h"
 #include "mesh/boundary_line.h"
-#include "mesh/label_text.h"
+#include "mesh/triangle_mesh.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build.h"
-#include "scene/held_dofs.h"
 #include "scene/memory_need.h"
 #include "scene/resolve.h"
 

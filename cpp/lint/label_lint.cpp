@@ -2,12 +2,11 @@
 #include <cmath>
 #include <map>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "base/error.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
-#include "mesh/label_text.h"
-#include "scene/held_dofs.h"
+#include "mesh/triangle_mesh.h"
 #include "scene/resolve.h"
 
 namespace mortier {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/digits.h"
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "contact/interface.h"
-#include "plan/steps.h"
+#include "plan/loads.h"
 #include "scene/build.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"

@@ -3,7 +3,6 @@
 #include <functional>
 #include <optional>
 
-#include "base/counted.h"
 #include "base/digits.h"
 #include "lint/lint.h"
 

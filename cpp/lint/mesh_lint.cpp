@@ -2,11 +2,10 @@
 #include <cmath>
 #include <map>
 
-#include "base/counted.h"
 #include "base/digits.h"
 #include "base/disjoint_sets.h"
 #include "lint/lint.h"
-#include "mesh/components.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {

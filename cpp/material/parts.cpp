@@ -6,7 +6,6 @@
 #include "base/worst.h"
 #include "material/back_stress.h"
 #include "material/interior_path.h"
-#include "material/pointwise.h"
 
 namespace mortier {
 namespace {

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "material/anisotropy.h"
 #include "material/interior_path.h"
-#include "material/pointwise.h"
+#include "material/parts.h"
 
 namespace mortier {
 namespace {

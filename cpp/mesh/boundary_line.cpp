@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "mesh/label_text.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {
@@ -60,10 +60,9 @@ BoundaryLine verticesOf(const TriangleMesh& mesh, int label) {
   std::vector<int> next(mesh.vertices.size(), none), previous(mesh.vertices.size(), none);
   std::vector<int> starts;  // of the edges that carry the label
   for (const auto& [a, b] : edgesOn(mesh, label)) {
-    if (next[a] != none || previous[b] != none) {
+    if (next[a] != none || previous[b] != none)
       fail(mesh, label,
            "branches in " + describeVertex(mesh, next[a] != none ? a : b) + ", expected one line");
-    }
     next[a] = b;
     previous[b] = a;
     starts.push_back(a);

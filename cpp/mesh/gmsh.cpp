@@ -1,6 +1,6 @@
 // In a process of its own: Gmsh crashes on some files, and a geometry is a program that could start others
 // and write files.
-#include "mesh/gmsh.h"
+#include "mesh/read.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,13 +12,12 @@
 #include "base/archive.h"
 #include "base/child_process.h"
 #include "base/error.h"
-#include "mesh/geometry_constants.h"
 #include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
 #include <gmshc.h>
 
-#include "mesh/gmsh_curves.h"
+#include "mesh/gmsh_library.h"
 #endif
 
 namespace mortier {

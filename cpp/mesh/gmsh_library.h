@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "mesh/read.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 
@@ -48,5 +50,30 @@ class Gmsh {
   std::string path_;
   void* library_ = nullptr;
 };
+
+// What the edges of Gmsh's curves stand for.
+
+/// Nodes of a plane mesh of Gmsh.
+struct PlaneNodes {
+  std::map<size_t, Point> at;  ///< by tag [m]
+  double z = 0;
+};
+
+/// Of an edge: the middle of what it stands for [m], not finite where that is not known or straight, and the
+/// curve where that is no circle.
+struct KnownEdge {
+  Point middle;
+  EdgeCurve curve = {};
+};
+
+/// \param curve  of Gmsh  \param ends  tags of the nodes of its edges, two by two
+std::vector<KnownEdge> knownEdges(const Gmsh& gmsh, int curve, const std::vector<size_t>& ends,
+                                  const PlaneNodes& nodes);
+
+// The constants that a geometry of Gmsh declares: DefineConstant[ name = value, ... ].
+
+/// Gmsh overlooks a number that no constant of the geometry takes.
+/// \throws InputError when a parameter is none of them.
+void requireConstants(const MeshSource& source);
 
 }  // namespace mortier

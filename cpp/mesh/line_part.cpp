@@ -1,7 +1,6 @@
 #include "mesh/line_part.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -11,8 +10,8 @@
 namespace mortier {
 namespace {
 
-constexpr double rounding = 1e-12;  // of the line's length
-constexpr double nearness = 1e-2;   // the same: points of a curve are not on the polygon
+constexpr double roundingOfLines = 1e-12;  // of the line's length
+constexpr double nearness = 1e-2;          // the same: points of a curve are not on the polygon
 
 struct Nearest {
   double place = 0;
@@ -47,9 +46,9 @@ LinePart::LinePart(const BoundaryLine& line, const Point& from, const Point& to,
   if (first.distance > nearness * length) throw InputError("from is not on the line, expected a point of it");
   if (last.distance > nearness * length) throw InputError("to is not on the line, expected a point of it");
   std::tie(begin_, end_) = std::minmax(first.place, last.place);
-  if (!(end_ - begin_ > rounding * length))
+  if (!(end_ - begin_ > roundingOfLines * length))
     throw InputError("from and to are one point of the line, expected two");
-  margin_ = margin > rounding * length ? margin : 0;
+  margin_ = margin > roundingOfLines * length ? margin : 0;
 }
 
 double LinePart::along(const Point& x) const {
@@ -59,7 +58,7 @@ double LinePart::along(const Point& x) const {
 double LinePart::weight(double s) const {
   const double off = std::max({begin_ - s, s - end_, 0.0});
   if (margin_ > 0) return std::max(0.0, 1 - off / margin_);
-  return off > rounding * places_.back() ? 0 : 1;
+  return off > roundingOfLines * places_.back() ? 0 : 1;
 }
 
 std::vector<double> LinePart::stretch(double first, double last) const {
@@ -111,7 +110,7 @@ double LinePart::bulge(double first, double last, int side) const {
 // Constants, or where the weight is continuous what it is at the ends and as much more as it bulges.
 std::array<double, 2> LinePart::above(double first, double last) const {
   const auto [low, high] = std::minmax(first, last);
-  const double slack = rounding * places_.back();
+  const double slack = roundingOfLines * places_.back();
   const bool overlaps = std::min(high, end_) - std::max(low, begin_) > slack;
   const double largest = overlaps ? 1 : margin_ > 0 ? std::max(weight(first), weight(last)) : 0;
   if (!(margin_ > 0) || first == last) return {largest, largest};

@@ -1,8 +1,11 @@
 #include "mesh/read.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "base/error.h"
-#include "mesh/gmsh.h"
-#include "mesh/medit.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 namespace {
@@ -27,6 +30,109 @@ TetrahedronMesh readSpaceMesh(const MeshSource& source) {
   if (isGmshFile(source.path)) return readSpaceGmsh(source);
   requireNoGeometry(source);
   return readSpaceMedit(source.path, source.regions);
+}
+
+namespace {
+
+/// A cosine or a sine; those of right angles are exact.
+double withoutRounding(double value) {
+  constexpr double tiny = 1e-15;
+  return std::abs(value) < tiny ? 0 : std::abs(std::abs(value) - 1) < tiny ? std::round(value) : value;
+}
+
+/// Numbers of the vertices of all layers: those on the axis are the same in each.
+class SweptVertices {
+ public:
+  SweptVertices(const std::vector<Point>& plane, const Sweep& sweep, bool closed,
+                std::vector<SpacePoint>& all)
+      : numbers_(static_cast<size_t>(sweep.layers) + 1) {
+    for (int layer = 0; layer <= sweep.layers; ++layer) {
+      std::vector<int>& numbers = numbers_[static_cast<size_t>(layer)];
+      if (closed && layer == sweep.layers) {
+        numbers = numbers_.front();
+        break;
+      }
+      const double part = static_cast<double>(layer) / sweep.layers;
+      const double cosine = withoutRounding(std::cos(sweep.angle * part));
+      const double sine = withoutRounding(std::sin(sweep.angle * part));
+      for (size_t v = 0; v < plane.size(); ++v) {
+        const Point& x = plane[v];
+        const bool stays = sweep.length == 0 && x.x() == 0 && layer > 0;
+        numbers.push_back(stays ? numbers_.front()[v] : static_cast<int>(all.size()));
+        if (!stays) all.emplace_back(x.x() * cosine, x.y(), sweep.length * part + x.x() * sine);
+      }
+    }
+  }
+  [[nodiscard]] int operator()(int layer, int vertex) const {
+    return numbers_[static_cast<size_t>(layer)][static_cast<size_t>(vertex)];
+  }
+
+ private:
+  std::vector<std::vector<int>> numbers_;
+};
+
+template <size_t n>
+bool allDifferent(std::array<int, n> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
+}
+
+}  // namespace
+
+TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
+  constexpr double nearlyAll = 1e-6;
+  const double around = 2 * std::numbers::pi;
+  const bool closed = sweep.angle > around * (1 - nearlyAll);
+  Sweep exact = sweep;
+  if (closed) exact.angle = around;
+  if (sweep.length == 0) plane = meshAboutAxis(std::move(plane), "revolve");
+  if (!(exact.angle / sweep.layers < std::numbers::pi * (1 - nearlyAll)))
+    throw InputError(plane.name + ": layers that turn by half a circle, expected more of them");
+  TetrahedronMesh mesh;
+  mesh.name = plane.name;
+  const SweptVertices vertex(plane.vertices, exact, closed, mesh.vertices);
+  const auto addTriangle = [&](const std::array<int, 3>& triangle, int label) {
+    if (!allDifferent(triangle)) return;
+    mesh.boundaryTriangles.push_back(triangle);
+    mesh.boundaryLabels.push_back(label);
+  };
+  // Diagonals of the sides of a prism go from the smaller number above to the larger one below.
+  for (int layer = 0; layer < sweep.layers; ++layer) {
+    for (size_t t = 0; t < plane.triangles.size(); ++t) {
+      std::array<int, 3> corners = plane.triangles[t];
+      std::sort(corners.begin(), corners.end());
+      for (size_t split = 0; split < 3; ++split) {  // the corner that is below and above
+        std::array<int, 4> tetrahedron{};
+        for (size_t k = 0; k < 3; ++k)
+          tetrahedron[k < split ? k : k + 1] = vertex(layer + (k < split ? 1 : 0), corners[k]);
+        tetrahedron[split] = vertex(layer + 1, corners[split]);
+        if (!allDifferent(tetrahedron)) continue;
+        mesh.tetrahedra.push_back(tetrahedron);
+        mesh.regions.push_back(plane.regions[t]);
+      }
+    }
+    for (size_t e = 0; e < plane.boundaryEdges.size(); ++e) {
+      const auto& [a, b] = std::minmax(plane.boundaryEdges[e][0], plane.boundaryEdges[e][1]);
+      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer + 1, a)}, plane.boundaryLabels[e]);
+      addTriangle({vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)}, plane.boundaryLabels[e]);
+    }
+  }
+  mesh.labelNames = plane.labelNames;
+  mesh.regionNames = plane.regionNames;
+  int largest = 0;
+  for (const int label : plane.boundaryLabels) largest = std::max(largest, label);
+  for (const auto& [name, label] : plane.labelNames) largest = std::max(largest, label);
+  for (const int end : {0, 1}) {
+    if (closed) break;
+    const int label = largest + 1 + end;
+    mesh.labelNames.emplace(end == 0 ? "start" : "end", label);
+    for (const auto& [a, b, c] : plane.triangles) {
+      const int layer = end == 0 ? 0 : sweep.layers;
+      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer, c)}, label);
+    }
+  }
+  validate(mesh);
+  return mesh;
 }
 
 }  // namespace mortier

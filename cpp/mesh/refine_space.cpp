@@ -1,4 +1,4 @@
-#include "mesh/refine_space.h"
+#include "mesh/refine.h"
 
 #include <numeric>
 #include <set>

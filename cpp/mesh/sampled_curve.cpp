@@ -1,4 +1,4 @@
-#include "mesh/sampled_curve.h"
+#include "mesh/triangle_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ constexpr std::array<std::array<int, 4>, 6> tetrahedraOfCell{
 struct Side {
   int axis, end, label;
 };
-constexpr std::array<Side, 6> sides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
+constexpr std::array<Side, 6> boxSides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
 
 /// \param mirrored  how many cells from the lower end on are mirrored, by axes
 TetrahedronMesh boxMesh(const Cuboid& cuboid, const std::array<int, 3>& mirrored) {
@@ -44,7 +44,7 @@ TetrahedronMesh boxMesh(const Cuboid& cuboid, const std::array<int, 3>& mirrored
         };
         for (const auto& [a, b, c, d] : tetrahedraOfCell)
           mesh.tetrahedra.push_back({corner(a), corner(b), corner(c), corner(d)});
-        for (const auto& [axis, end, label] : sides) {
+        for (const auto& [axis, end, label] : boxSides) {
           if (cell[axis] != (end == 0 ? 0 : cuboid.cells[axis] - 1)) continue;
           for (const auto& tetrahedron : tetrahedraOfCell)
             for (int left = 0; left < 4; ++left) {
@@ -92,7 +92,7 @@ TetrahedronMesh roundMesh(const RoundBody& body) {
     x = body.centre + body.radius * x;
   }
   for (int& label : mesh.boundaryLabels)
-    for (const auto& [axis, end, sideLabel] : sides)
+    for (const auto& [axis, end, sideLabel] : boxSides)
       if (label == sideLabel && axis < rounded && body.keep[axis] != (end == 0 ? 1 : -1)) {
         label = 7;
         break;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/digits.h"
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -67,9 +67,8 @@ class Validator {
 
   void checkSizes() const {
     if (mesh_.regions.size() != mesh_.triangles.size() ||
-        mesh_.boundaryLabels.size() != mesh_.boundaryEdges.size()) {
+        mesh_.boundaryLabels.size() != mesh_.boundaryEdges.size())
       fail(MeshPart::whole, 0, "numbers of labels, expected one for each triangle and each boundary edge");
-    }
     if (mesh_.triangles.empty()) fail(MeshPart::whole, 0, "0 triangles, expected 1 or more");
   }
 
@@ -96,9 +95,8 @@ class Validator {
       if (!isVertex(v[0]) || !isVertex(v[1]) || !isVertex(v[2])) failHere(", " + range());
       const double square = longestEdgeSquared(mesh_, t);
       const double area = doubleArea(mesh_, t);
-      if (square > 0 && !(square > smallestSquare && square < largestSquare)) {
+      if (square > 0 && !(square > smallestSquare && square < largestSquare))
         failHere(": longest edge " + text(std::sqrt(square)) + ", expected between 1e-140 and 1e140");
-      }
       if (area > degenerateRatio * square) continue;
       if (area < -degenerateRatio * square)
         failHere(" is clockwise, expected counterclockwise", "clockwise-triangle");
@@ -127,12 +125,11 @@ class Validator {
     }
     const int t0 = sides[0].triangle(), t1 = sides[1].triangle();
     const std::string edge = numbers(sides[0].edge);
-    if (several == 2) {
+    if (several == 2)
       fail(MeshPart::triangle, t1,
            "triangles " + std::to_string(t0 + 1) + " and " + std::to_string(t1 + 1) +
                " lie on the same side of edge " + edge + ", expected one on each side",
            "overlapping-triangles");
-    }
     fail(MeshPart::triangle, sides[2].triangle(),
          "edge " + edge + " is shared by " + std::to_string(sides.size()) + " triangles, expected 2 at most",
          "overlapping-triangles");
@@ -213,6 +210,24 @@ double aspectRatio(const TriangleMesh& mesh, int t) {
 
 void validate(TriangleMesh& mesh, const FaultPlace& place) {
   Validator(mesh, place).run();
+}
+
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
+  constexpr double rounding = 1e-12;  // of the largest radius
+  double largest = 0;
+  for (const Point& vertex : mesh.vertices) largest = std::max(largest, std::abs(vertex.x()));
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    double& radius = mesh.vertices[v].x();
+    if (std::abs(radius) <= rounding * largest) radius = 0;
+    if (radius >= 0) continue;
+    std::ostringstream message;
+    message << mesh.name << ": vertex " << v + 1 << " at x = " << radius << ", expected x >= 0 beside "
+            << beside << ": x is the distance from the axis";
+    throw InputError(message.str());
+  }
+  for (Point& middle : mesh.edgeMiddles)
+    if (std::abs(middle.x()) <= rounding * largest) middle.x() = 0;
+  return mesh;
 }
 
 }  // namespace mortier

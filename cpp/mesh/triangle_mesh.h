@@ -4,13 +4,47 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/types.h"
-#include "mesh/sampled_curve.h"
 
 namespace mortier {
+
+// A curve by points of it. x(t), 0 <= t <= 1, is piece by piece the polynomial of degree 8 through nine
+// points of the curve, at Chebyshev's places with both ends (barycentric formula; Berrut, Trefethen 2004).
+// Pieces are halved until they are the curve to a tolerance, so that a jump of a curvature, or a kink, lies
+// in a piece that is small enough.
+
+struct SampledCurve {
+  std::vector<double> knots;  ///< t at the ends of the pieces, from 0 to 1
+  std::vector<Point> points;  ///< eight a piece, and the last one [m]
+
+  [[nodiscard]] Point at(double t) const;
+};
+
+/// Empty where thousands of pieces are not the curve.
+/// \param points  of the curve at places t in [0, 1] [m]
+/// \param tolerance  of the distance between x(t) and the curve's point at t [m]
+SampledCurve sampled(const std::function<std::vector<Point>(const std::vector<double>&)>& points,
+                     double tolerance);
+
+/// The stretch of a curve that an edge stands for, from its first vertex to its second.
+struct EdgeCurve {
+  std::shared_ptr<const SampledCurve> curve = nullptr;  ///< none where it is not known
+  double from = 0;                                      ///< t at the first vertex, may be the larger one
+  double to = 1;
+
+  [[nodiscard]] bool known() const { return curve != nullptr; }
+  [[nodiscard]] Point at(double t) const { return curve->at(t); }
+  /// t where the stretch meets the straight line through x along n; at the end next to that line where it
+  /// does not. \pre known
+  [[nodiscard]] double meeting(const Point& x, const Point& n) const;
+  /// t where it is equally far from both its ends. \pre known
+  [[nodiscard]] double middle() const;
+};
 
 /// A conforming mesh of triangles of one body.
 struct TriangleMesh {
@@ -55,5 +89,27 @@ using FaultPlace = std::function<std::string(MeshPart part, int index)>;
 /// edge or less: no absolute length enters. \throws InputError with the first fault, headed by `place` or,
 /// without one, by `mesh.name`.
 void validate(TriangleMesh& mesh, const FaultPlace& place = {});
+
+// Bodies of revolution: a mesh in the half plane x >= 0 turns about the axis x = 0. Then x is the radius r
+// and y the coordinate z along the axis; what is integrated over the mesh or its sides is of the whole ring,
+//   int f dV = int f 2 pi r dA,   int f dS = int f 2 pi r ds.
+
+/// 2 pi r [m].
+inline double circumference(const Point& place) {
+  return 2 * std::numbers::pi * place.x();
+}
+
+/// Vertices that only rounding keeps from the axis are put on it.
+/// \throws InputError with the first vertex on the other side of it. \param beside  the key that asks for it
+TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside = "plane = \"axisymmetric\"");
+
+// Labels in messages.
+
+/// `label 3 "top"`, or `label 3` where the mesh has no name for it.
+inline std::string labelText(const TriangleMesh& mesh, int label) {
+  for (const auto& [name, number] : mesh.labelNames)
+    if (number == label) return "label " + std::to_string(label) + " \"" + name + "\"";
+  return "label " + std::to_string(label);
+}
 
 }  // namespace mortier

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/disjoint_sets.h"
+
 namespace mortier {
 
 TriangleSides sortedSides(const TriangleMesh& mesh) {
@@ -34,6 +36,18 @@ std::span<const TriangleSide> sidesOn(const TriangleSides& sides, int a, int b) 
   auto last = first;
   while (last != sides.end() && last->edge == edge) ++last;
   return {first, last};
+}
+
+EdgeComponents edgeComponents(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.triangles.size());
+  forEachEdge(sortedSides(mesh), [&](std::span<const TriangleSide> sides) {
+    for (const TriangleSide& each : sides) sets.join(sides[0].triangle(), each.triangle());
+  });
+  EdgeComponents result;
+  result.of.resize(mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    result.of[t] = sets.of(t) == t ? result.count++ : result.of[sets.of(t)];
+  return result;
 }
 
 }  // namespace mortier

@@ -7,7 +7,6 @@
 
 #include "base/digits.h"
 #include "plan/loads.h"
-#include "plan/steps.h"
 #include "scene/document.h"
 #include "time/quantity.h"
 

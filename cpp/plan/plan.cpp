@@ -1,13 +1,11 @@
 #include "plan/plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
-#include "base/counted.h"
 #include "base/digits.h"
-#include "plan/steps.h"
+#include "plan/loads.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
 

@@ -1,4 +1,4 @@
-#include "ranks/metis_partition.h"
+#include "ranks/mpi_ranks.h"
 
 #include <metis.h>
 

@@ -14,10 +14,6 @@
 #include <utility>
 
 #include "base/interrupt.h"
-#include "ranks/metis_partition.h"
-#ifdef MORTIER_MUMPS
-#include "ranks/mumps_skeleton.h"
-#endif
 
 namespace mortier {
 namespace {

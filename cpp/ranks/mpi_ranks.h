@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/ranks.h"
+#include "linear/partition.h"
+#include "linear/skeleton.h"
 
 namespace mortier {
 
@@ -60,5 +62,16 @@ class MpiRanks final : public Ranks {
   bool peerEnded_ = false;
   double traffic_ = 0;
 };
+
+// Graphs cut by METIS (Karypis and Kumar 1998).
+
+/// \throws std::runtime_error
+std::vector<int> partitionByMetis(const Graph& graph, const std::vector<double>& shares);
+
+// Skeletons whose factor MUMPS (Amestoy, Duff, Koster and L'Excellent 2001) distributes among the ranks.
+
+/// \pre the ranks are those of MPI (ranks/mpi_ranks.h), and some equations are eliminated
+/// \throws std::bad_alloc, std::runtime_error from all of them, here and in what it makes
+std::unique_ptr<Skeleton> mumpsSkeleton(const SkeletonShape& shape, Ranks& ranks);
 
 }  // namespace mortier

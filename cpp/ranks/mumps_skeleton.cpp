@@ -1,8 +1,5 @@
-#include "ranks/mumps_skeleton.h"
-
 #include <dmumps_c.h>
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <stdexcept>

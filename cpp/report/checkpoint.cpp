@@ -28,9 +28,11 @@ uint64_t sumOf(std::string_view bytes) {
   return sum.value;
 }
 
-template <class T>
-void add(Checksum& sum, const std::vector<T>& values) {
-  sum.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+template <class... Lists>
+uint64_t hashOfLists(const Lists&... lists) {
+  Checksum sum;
+  (sum.add({reinterpret_cast<const char*>(lists.data()), lists.size() * sizeof(lists[0])}), ...);
+  return sum.value;
 }
 
 Checkpoint decode(const std::string& path) {
@@ -47,7 +49,7 @@ Checkpoint decode(const std::string& path) {
   ArchiveReader reader(content.substr(magic.size()));
   Checkpoint checkpoint;
   reader(checkpoint);
-  if (!reader.atEnd()) throw InputError("damaged");
+  if (!reader.bytes.empty()) throw InputError("damaged");
   return checkpoint;
 }
 
@@ -73,24 +75,12 @@ void requireFile(const std::string& folder, const std::string& name, const FileR
 }  // namespace
 
 uint64_t hashOf(const TetrahedronMesh& mesh) {
-  Checksum sum;
-  for (const SpacePoint& p : mesh.vertices)
-    sum.add({reinterpret_cast<const char*>(p.data()), 3 * sizeof(double)});
-  add(sum, mesh.tetrahedra);
-  add(sum, mesh.regions);
-  add(sum, mesh.boundaryTriangles);
-  add(sum, mesh.boundaryLabels);
-  return sum.value;
+  return hashOfLists(mesh.vertices, mesh.tetrahedra, mesh.regions, mesh.boundaryTriangles,
+                     mesh.boundaryLabels);
 }
 
 uint64_t hashOf(const TriangleMesh& mesh) {
-  Checksum sum;
-  for (const Point& p : mesh.vertices) sum.add({reinterpret_cast<const char*>(p.data()), 2 * sizeof(double)});
-  add(sum, mesh.triangles);
-  add(sum, mesh.regions);
-  add(sum, mesh.boundaryEdges);
-  add(sum, mesh.boundaryLabels);
-  return sum.value;
+  return hashOfLists(mesh.vertices, mesh.triangles, mesh.regions, mesh.boundaryEdges, mesh.boundaryLabels);
 }
 
 void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint) {

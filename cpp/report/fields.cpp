@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "material/stress.h"
-#include "report/output_file.h"
-#include "solver/total_strain.h"
+#include "report/manifest.h"
+#include "solver/state.h"
 
 namespace mortier {
 
@@ -31,10 +31,9 @@ class VtuFile {
 
   void array(const std::string& name, std::vector<double> values, int components,
              const std::vector<std::string>& componentNames = {}) {
-    if (!Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite()) {
+    if (!Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite())
       throw OutputError(path_.substr(path_.rfind('/') + 1) + ": " + name +
                         " is not finite everywhere; the run is not valid");
-    }
     describe("Float64", name, components, componentNames);
     append(values.data(), values.size() * sizeof(double));
   }
@@ -64,9 +63,8 @@ class VtuFile {
     if (components > 1) {  // a scalar says nothing, so that readers give it back without a second dimension
       xml_ << " NumberOfComponents=\"" << components << '"';
     }
-    for (size_t c = 0; c < componentNames.size(); ++c) {
+    for (size_t c = 0; c < componentNames.size(); ++c)
       xml_ << " ComponentName" << c << "=\"" << componentNames[c] << '"';
-    }
     descriptions_.push_back(xml_.str());
     xml_.str("");
   }

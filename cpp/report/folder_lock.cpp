@@ -1,4 +1,4 @@
-#include "report/folder_lock.h"
+#include "report/output_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

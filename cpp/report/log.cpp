@@ -5,9 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "report/clock.h"
-#include "report/summary.h"
 
 namespace mortier {
 
@@ -150,9 +149,7 @@ std::string logStatus(const RunReport& report, const std::string& folder) {
   const double wall = processSeconds();
   const double share = wall > 0 ? std::min(1.0, report.solveSeconds / wall) : 0;
   std::string text = "status " + word(report.status);
-  if (report.status != Status::converged) {
-    text += " after " + counted(report.steps, "step");
-  }
+  if (report.status != Status::converged) text += " after " + counted(report.steps, "step");
   return text +
          formatted("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ",
                    report.iterations, report.factorisations, wall, 100 * share, peakMemory()) +

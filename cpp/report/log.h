@@ -64,4 +64,14 @@ class Log {
   double flushed_ = 0;
 };
 
+// summary.json: the result of a run in a few numbers.
+
+/// \param path  for messages
+/// \throws OutputError when a number is not finite.
+std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
+                        const Solved& solved);
+
+/// "converged", "failed", "unheld".
+std::string word(Status status);
+
 }  // namespace mortier

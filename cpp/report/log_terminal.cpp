@@ -21,13 +21,9 @@ void Log::drawBar(double time) {
   constexpr double interval = 0.1;  // [s]
   const double now = processSeconds();
   const double done = std::clamp(time / endTime_, 0.0, 1.0);
-  if (!hasBar_ || done <= 0 || (now - start_) / done < longRun) {
-    return;
-  }
+  if (!hasBar_ || done <= 0 || (now - start_) / done < longRun) return;
   // On the same terminal the log's row has just taken the bar away; elsewhere ten times a second are enough.
-  if (drawn_ && now < lastDrawn_ + interval) {
-    return;
-  }
+  if (drawn_ && now < lastDrawn_ + interval) return;
   constexpr int width = 40;
   const int filled = static_cast<int>(done * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');

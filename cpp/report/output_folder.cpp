@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "report/output_file.h"
+#include "report/manifest.h"
 
 namespace mortier {
 

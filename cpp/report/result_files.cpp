@@ -1,6 +1,8 @@
 #include "report/result_files.h"
 
 #include <filesystem>
+#include <functional>
+#include <utility>
 
 #include "base/error.h"
 
@@ -80,6 +82,178 @@ std::map<std::string, FileRecord> ResultFiles::close(const State& state, int las
   written["history.csv"] = history_.close();
   written["contact.csv"] = contact_.close();
   return written;
+}
+
+namespace {
+
+struct Column {
+  const char* name;
+  std::function<std::string(const Units&)> unit;  ///< none of a number without
+  std::function<HistoryValue(const StepReport&)> value;
+};
+
+/// Those that every history has.
+const std::vector<Column>& columnsOfSteps() {
+  const auto residual = [](double Certificate::*member) {
+    return [member](const StepReport& r) { return HistoryValue(r.certificate.*member); };
+  };
+  using R = StepReport;
+  static const std::vector<Column> columns{
+      {"step", {}, &R::step},
+      {"time", &Units::time, &R::time},
+      {"time_step", &Units::time, &R::timeStep},
+      {"estimate", {}, &R::estimate},
+      {"rejections", {}, &R::rejections},
+      {"guarded", {}, [](const R& r) { return r.guarded ? 1 : 0; }},
+      {"rung", {}, [](const R& r) { return std::string_view(nameOf(r.rung)); }},
+      {"iterations", {}, &R::iterations},
+      {"factorisations", {}, &R::factorisations},
+      {"active", {}, &R::active},
+      {"joined", {}, &R::joined},
+      {"left", {}, &R::left},
+      {"penetration", &Units::penetration, &R::penetration},
+      {"max_pressure", &Units::stress, &R::maxPressure},
+      {"contact_force", &Units::forcePerDepth, &R::contactForce},
+      {"contact_resultant_x", &Units::forcePerDepth, &R::resultantX},
+      {"contact_resultant_y", &Units::forcePerDepth, &R::resultantY},
+      {"von_mises_max", &Units::stress, &R::vonMises},
+      {"displacement_max", &Units::length, &R::displacement},
+      {"elastic_energy", &Units::energyPerDepth, &R::energy},
+      {"viscoplastic_fraction", {}, &R::viscoplasticFraction},
+      {"force_balance", {}, residual(&Certificate::forceBalance)},
+      {"material_residual", {}, residual(&Certificate::materialResidual)},
+      {"gap_on_active", {}, residual(&Certificate::gapOnActive)},
+      {"sign", {}, residual(&Certificate::sign)},
+      {"complementarity", {}, residual(&Certificate::complementarity)},
+      {"open_penetration", {}, residual(&Certificate::openPenetration)},
+      {"rounding", {}, residual(&Certificate::rounding)}};
+  return columns;
+}
+
+template <class Values, class Write>
+void writeLine(OutputFile& file, const Values& values, Write write) {
+  const char* comma = "";
+  for (const auto& value : values) {
+    file << comma;
+    write(value);
+    comma = ",";
+  }
+  file << '\n';
+}
+
+}  // namespace
+
+std::vector<std::string> historyColumns(const Model& model, const std::vector<Quantity>& quantities,
+                                        const Units& units) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    names.push_back(name + '[' + unit + ']');
+  };
+  for (const Column& each : columnsOfSteps())
+    if (each.unit)
+      add(each.name, each.unit(units));
+    else
+      names.emplace_back(each.name);
+  if (model.bodies.front().dimension() == 3) add("contact_resultant_z", units.forcePerDepth());
+  if (anyFriction(model)) names.emplace_back("ambiguous");
+  for (size_t k = 0; k < model.interfaces.size(); ++k)
+    if (model.interfaces[k].hasFriction()) add("friction_work_" + std::to_string(k), units.energyPerDepth());
+  for (const Quantity& quantity : quantities) add(quantity.name, quantity.unit(units));
+  return names;
+}
+
+std::vector<HistoryValue> historyRow(const StepReport& r) {
+  std::vector<HistoryValue> row;
+  for (const Column& each : columnsOfSteps()) row.push_back(each.value(r));
+  if (r.resultantZ) row.emplace_back(*r.resultantZ);
+  if (!r.frictionWork.empty()) row.emplace_back(r.solutions.ambiguous ? 1 : 0);
+  row.insert(row.end(), r.frictionWork.begin(), r.frictionWork.end());
+  row.insert(row.end(), r.quantities.begin(), r.quantities.end());
+  return row;
+}
+
+namespace {
+
+/// Leaves out nodes that face nothing now.
+void keepFacing(const ContactInterface& interface, ContactFields& fields) {
+  std::vector<int> rows;
+  std::vector<int> vertex;
+  std::vector<signed char> slipping;
+  for (int row = 0; row < interface.rows(); ++row) {
+    if (!interface.faces(row)) continue;
+    rows.push_back(row);
+    vertex.push_back(fields.vertex[row]);
+    slipping.push_back(fields.slipping[row]);
+  }
+  fields.vertex = std::move(vertex);
+  fields.slipping = std::move(slipping);
+  for (Vector* each :
+       {&fields.gap, &fields.force, &fields.pressure, &fields.friction, &fields.shear, &fields.slip})
+    *each = Vector((*each)(rows));
+}
+
+}  // namespace
+
+ContactFields contactFields(const Model& model, const State& state, size_t interface) {
+  const ContactInterface& of = model.interfaces[interface];
+  const ContactPair& pair = of.pair();
+  const Vector gap = of.gap(state.bodies[pair.nonmortar.body].displacement,
+                            state.bodies[pair.mortar.body].displacement, state.time);
+  const Vector& force = state.contactForce[interface];
+  const Vector none = Vector::Zero(of.rows());
+  ContactFields fields{of.nonmortarNodes(),
+                       {},
+                       (0 - gap.array()).matrix(),
+                       force,
+                       of.contactPressure(force),
+                       none,
+                       none,
+                       none,
+                       std::vector<signed char>(of.rows(), 0)};
+  if (of.hasFriction()) {
+    fields.friction = state.frictionForce[interface];
+    fields.shear = of.contactPressure(fields.friction);
+    fields.slip =
+        of.slip(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
+    fields.slipping = state.slipping[interface];
+  }
+  if (of.follows()) keepFacing(of, fields);
+  const Body& nonmortar = model.bodies[pair.nonmortar.body];
+  for (const int vertex : fields.vertex) fields.place.push_back(nonmortar.placeOfNode(vertex));
+  return fields;
+}
+
+void writeHistoryHeader(OutputFile& file, const std::vector<std::string>& columns) {
+  writeLine(file, columns, [&](const std::string& name) { file << name; });
+}
+
+void writeHistoryRow(OutputFile& file, const StepReport& report) {
+  writeLine(file, historyRow(report),
+            [&](const HistoryValue& value) { std::visit([&](const auto& each) { file << each; }, value); });
+}
+
+void writeContactHeader(OutputFile& file, const Model& model) {
+  file << "step,time,interface,vertex,x,y," << (model.bodies.front().dimension() == 3 ? "z," : "")
+       << "gap,force,pressure,active";
+  if (anyFriction(model)) file << ",friction,shear,slip,slipping";
+  file << '\n';
+}
+
+void writeContactRows(OutputFile& file, const Model& model, const State& state, int step) {
+  const bool friction = anyFriction(model);
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactFields fields = contactFields(model, state, k);
+    for (size_t i = 0; i < fields.vertex.size(); ++i) {
+      file << step << ',' << state.time << ',' << k << ',' << fields.vertex[i];
+      for (int c = 0; c < model.bodies.front().dimension(); ++c) file << ',' << fields.place[i][c];
+      file << ',' << fields.gap[i] << ',' << fields.force[i] << ',' << fields.pressure[i] << ','
+           << (fields.force[i] > 0 ? 1 : 0);
+      if (friction)
+        file << ',' << fields.friction[i] << ',' << fields.shear[i] << ',' << fields.slip[i] << ','
+             << static_cast<int>(fields.slipping[i]);
+      file << '\n';
+    }
+  }
 }
 
 }  // namespace mortier

@@ -2,12 +2,57 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "report/fields.h"
-#include "report/tables.h"
+#include "report/manifest.h"
+#include "time/march.h"
+#include "time/quantity.h"
 
 namespace mortier {
+
+// The tables of a result, a row each:
+//   history.csv  per step, with everything that is reported of it; with friction whether several solutions
+//                are possible and the work of each interface that has it; the quantities of the scene. Units
+//                stand in the header.
+//   contact.csv  per kept step and nonmortar node: its place as meshed (in space with z), gap [m],
+//                positive where the bodies are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether
+//                it is active (p > 0). Where any interface has friction also the fields along the line.
+//                Vertices and interfaces count from 0.
+
+using HistoryValue = std::variant<int, double, std::string_view>;
+
+/// The columns with their units, `time[s]`, and their values.
+std::vector<std::string> historyColumns(const Model& model, const std::vector<Quantity>& quantities,
+                                        const Units& units);
+std::vector<HistoryValue> historyRow(const StepReport& report);
+/// The initial state has one where something acts in it.
+inline bool hasRow(const StepReport& report) {
+  return report.step > 0 || report.motion > 0 || report.vonMises > 0;
+}
+
+/// One interface at one state, by nonmortar node.
+struct ContactFields {
+  std::vector<int> vertex;
+  std::vector<SpacePoint> place;  ///< as meshed; z = 0 in the plane [m]
+  Vector gap;                     ///< positive where the bodies are apart [m]
+  Vector force;                   ///< [N/m]
+  Vector pressure;                ///< [Pa]
+  // Along the line (the nonmortar body to the left); zero where there is no friction.
+  Vector friction;                    ///< nodal force t on the nonmortar body [N/m]
+  Vector shear;                       ///< Phi^-1 t [Pa]
+  Vector slip;                        ///< how far it has moved over the other body since t = 0 [m]
+  std::vector<signed char> slipping;  ///< sign of t where the node slipped in the last step, else 0
+};
+ContactFields contactFields(const Model& model, const State& state, size_t interface);
+
+// Lines of the files.
+void writeHistoryHeader(OutputFile& file, const std::vector<std::string>& columns);
+void writeHistoryRow(OutputFile& file, const StepReport& report);
+void writeContactHeader(OutputFile& file, const Model& model);
+void writeContactRows(OutputFile& file, const Model& model, const State& state, int step);
 
 /// How far the files had come at a checkpoint.
 struct FilesSoFar {

@@ -1,8 +1,7 @@
-#include "report/summary.h"
+#include "report/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 

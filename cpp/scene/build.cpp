@@ -1,9 +1,20 @@
 #include "scene/build.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "base/digits.h"
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+#include "scene/document.h"
+#include "scene/expression.h"
 #include "scene/memory_need.h"
+#include "scene/resolve.h"
+#include "time/initial_balance.h"
+#include "time/mean_pressure.h"
+#include "time/nodal_forces.h"
 
 namespace mortier {
-
 namespace {
 
 /// Where data are tried before the run: the ends of the first and last step, and between.
@@ -28,10 +39,181 @@ Model buildModel(ResolvedScene& scene) {
   scene.meshes.clear();
   scene.spaceMeshes.clear();
   if (description.inSpace()) requireMemory(memoryNeed(model, description.solver), false);
-  for (const ContactDescription& contact : description.contacts) {
-    addContact(description, contact, model);
-  }
+  for (const ContactDescription& contact : description.contacts) addContact(description, contact, model);
   return model;
+}
+
+std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State state) {
+  constexpr double noticeable = 1e-6;
+  const auto stressed = [](const Body& body) { return body.hasInitialStress(); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), stressed)) return "";
+  double change = 0;
+  try {
+    change = balanceInitialStress(model, state, scene.solver);
+  } catch (const InputError& error) {
+    throw InputError(scene.path + ": " + error.what());
+  }
+  if (change <= noticeable) return "";
+  return "the initial stress is not in equilibrium with the loads at t = 0; the bodies settled elastically, "
+         "which "
+         "changed it by up to " +
+         digits(change) + " of the largest stress";
+}
+
+namespace {
+
+/// Whether a label is a side of a contact, of one with friction if that is asked for.
+bool isInContact(const Model& model, int body, int label, bool rough) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [&](const ContactInterface& interface) {
+                       return isSide(interface, body, label) && (interface.hasFriction() || !rough);
+                     });
+}
+
+}  // namespace
+
+std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model& model) {
+  std::vector<Quantity> quantities;
+  for (const QuantityDescription& description : scene.quantities) {
+    Quantity quantity{description.name,  description.kind,      bodyIndex(scene, description.body),
+                      description.label, description.component, description.about};
+    const Body& body = model.bodies[quantity.body];
+    if (description.whole) {
+      quantity.whole = true;
+      quantities.push_back(std::move(quantity));
+      continue;
+    }
+    const auto refuse = [&](const std::string& what) {
+      throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
+    };
+    if (quantity.kind == Quantity::Kind::reaction) {
+      quantity.point = description.point;
+      quantity.pointInSpace = description.pointInSpace;
+    }
+    const std::string point = description.point          ? shortest(*description.point)
+                              : description.pointInSpace ? shortest(*description.pointInSpace)
+                                                         : "";
+    const bool atPoint = quantity.kind == Quantity::Kind::reaction && !point.empty();
+    const std::string label =
+        (atPoint ? "point " + point : "label " + std::to_string(quantity.label)) + " of body " + body.name();
+    if (quantity.kind == Quantity::Kind::reaction &&
+        firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace) < 0)
+      refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
+    const bool isOfContact =
+        quantity.kind == Quantity::Kind::contactForce || quantity.kind == Quantity::Kind::largestPressure ||
+        quantity.kind == Quantity::Kind::contactLength || quantity.kind == Quantity::Kind::meanPressure;
+    if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
+      refuse(label + " is no side of a contact, expected one");
+    if (quantity.kind == Quantity::Kind::frictionWork &&
+        !isInContact(model, quantity.body, quantity.label, true))
+      refuse(label + " is no side of a contact with friction, expected one");
+    if (quantity.kind == Quantity::Kind::displacement) {
+      if (const SpaceElements* space = body.space())
+        quantity.mean = description.pointInSpace ? meanAt(*space, *description.pointInSpace)
+                                                 : meanOn(*space, quantity.label);
+      else
+        quantity.mean = description.point
+                            ? meanAt(body.mesh(), body.elementNodes(), *description.point)
+                            : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
+      if (quantity.mean.empty()) refuse("point = " + point + ", expected a point of body " + body.name());
+    }
+    if (quantity.kind == Quantity::Kind::meanPressure) {
+      const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);
+      try {
+        quantity.part = description.part ? LinePart(line, description.part->from, description.part->to,
+                                                    description.part->margin)
+                                         : LinePart(line);
+      } catch (const InputError& error) {
+        refuse(label + ": " + error.what());
+      }
+      quantity.shares = meanPressureShares(model, quantity.body, quantity.label, *quantity.part);
+    }
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
+std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length) {
+  constexpr double noticeable = 0.02;  // of the pressure, where that is in proportion to the distance
+  const double distance = interface.initialDistance().cwiseAbs().mean();
+  if (!(interface.sagitta() > noticeable * distance)) return "";
+  return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + digits(distance) +
+         " " + length + " in the mean; they are off the curves behind them by up to " +
+         digits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
+}
+
+namespace {
+
+/// Adds the interface. \throws InputError headed by the place of the contact.
+template <class Add>
+void addAt(const ContactDescription& contact, const Add& add) {
+  const std::string where = contact.where + ": contact: ";
+  try {
+    add();
+  } catch (const FaultError& error) {
+    throw FaultError(where + error.what(), error.id());
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  }
+}
+
+}  // namespace
+
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {
+  ContactPair pair;
+  pair.coupling = contact.variant;
+  for (const auto& [side, target] :
+       {std::pair(&contact.nonmortar, &pair.nonmortar), std::pair(&contact.mortar, &pair.mortar)}) {
+    target->body = bodyIndex(scene, side->body);
+    target->label = side->label;
+  }
+  InterfaceOptions options;
+  options.initial = contact.initial;
+  if (scene.inSpace()) {
+    if (contact.gap) {
+      const Body& body = model.bodies[pair.nonmortar.body];
+      std::vector<SpacePoint> places;
+      for (const int node : body.boundaryNodes(pair.nonmortar.label))
+        places.push_back(body.placeOfNode(node));
+      requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
+      options.gapInSpace = finiteInSpace(*contact.gap);
+      options.gapMoves = contact.gap->inTime;
+    }
+    return addAt(contact, [&] {
+      addInterface(model, pair, options);
+      requireMemory(memoryNeed(model, scene.solver), false);
+    });
+  }
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
+  options.friction = contact.friction;
+  options.follows = contact.sliding == SlidingKind::finite;
+  options.axisymmetric = scene.plane == Plane::axisymmetric;
+  options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
+  if (contact.gap) {
+    const Body& body = model.bodies[pair.nonmortar.body];
+    std::vector<Point> points;
+    for (const BoundaryStretch& stretch : body.elementNodes().boundary)
+      if (body.mesh().boundaryLabels[stretch.edge] == pair.nonmortar.label)
+        for (const int node : stretch.nodes) points.push_back(body.elementNodes().places[node]);
+    requireFinite(*contact.gap, points, {0, contact.gap->inTime ? scene.time.end : 0});
+    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+    if (contact.gap->inTime)
+      options.gapInTime = [value = finiteValue(*contact.gap)](const Point& x, double t) {
+        return value(x.x(), x.y(), t);
+      };
+  }
+  std::vector<ContactPair> pairs{pair};
+  std::vector<bool> rough{contact.friction.any()};
+  for (const ContactInterface& interface : model.interfaces) {
+    pairs.push_back(interface.pair());
+    rough.push_back(interface.hasFriction());
+  }
+  addAt(contact, [&] {
+    requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
+    addInterface(model, pair, options);
+    if (contact.gap) model.interfaces.back().setGiven(finiteValue(*contact.gap));
+  });
 }
 
 }  // namespace mortier

@@ -29,11 +29,9 @@ std::string findInitialEquilibrium(const SceneDescription& scene, const Model& m
 std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length);
 
 // Parts of a model. \throws InputError
-/// \param places  the points of the material, which an angle of its axes may depend on.
+/// \param plane  none in space \param angles  of its axes at all of its points, one where they are the same
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
-                                              const std::vector<Point>& places);
-std::shared_ptr<const Material> buildSpaceMaterial(const MaterialDescription& description,
-                                                   const std::vector<SpacePoint>& places);
+                                              const std::vector<double>& angles = {0});
 /// By what angle the axes of a material are turned at each of the places [rad]; one where it is everywhere
 /// the same. \throws InputError
 template <class Place>
@@ -42,9 +40,6 @@ std::vector<double> anglesOf(const MaterialDescription& description, const std::
   const Expression& angle = *description.anisotropy->angle;
   return valuesAt(angle, angle.constant ? std::vector<Place>{places.front()} : places);
 }
-/// Of elasticity that is not isotropic.
-std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
-                                                 const std::vector<double>& angles);
 /// One material, or as many as regions ask for. \param regions  by elements \param points  of the whole body
 std::shared_ptr<const Material> materialOfRegions(
     const BodyDescription& body, const std::vector<int>& regions, size_t points,

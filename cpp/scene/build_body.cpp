@@ -5,9 +5,10 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/parts.h"
+#include "material/space.h"
 #include "mesh/boundary_line.h"
 #include "scene/build.h"
-#include "scene/finite_value.h"
+#include "scene/expression.h"
 
 namespace mortier {
 
@@ -16,9 +17,8 @@ namespace {
 /// The middles of the edges of a label.
 std::vector<Point> middlesOn(const TriangleMesh& mesh, int label) {
   std::vector<Point> points;
-  for (const auto& [a, b] : edgesOn(mesh, label)) {
+  for (const auto& [a, b] : edgesOn(mesh, label))
     points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-  }
   return points;
 }
 
@@ -52,13 +52,9 @@ double largestOf(const ConditionDescription& condition, const TriangleMesh& mesh
 void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
                        const std::vector<double>& times) {
   for (const ConditionDescription& condition : body.conditions) {
-    if (condition.value.constant) {
-      continue;
-    }
+    if (condition.value.constant) continue;
     std::vector<Point> points;
-    if (condition.kind == ConditionDescription::Kind::traction) {
-      points = middlesOn(mesh, condition.label);
-    }
+    if (condition.kind == ConditionDescription::Kind::traction) points = middlesOn(mesh, condition.label);
     if (condition.point) {
       points.push_back(*condition.point);
     } else {
@@ -67,21 +63,15 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
     requireFinite(condition.value, points, times);
   }
   for (const std::optional<Expression>& force : body.force) {
-    if (force && !force->constant) {
-      requireFinite(*force, centres(mesh), times);
-    }
+    if (force && !force->constant) requireFinite(*force, centres(mesh), times);
   }
   const auto requireFiniteStress = [&](const StressDescription& stress) {
     for (const std::optional<Expression>& component : stress) {
-      if (component && !component->constant) {
-        requireFinite(*component, centres(mesh), {0});
-      }
+      if (component && !component->constant) requireFinite(*component, centres(mesh), {0});
     }
   };
   requireFiniteStress(body.initialStress);
-  for (const RegionDescription& region : body.regions) {
-    requireFiniteStress(region.initialStress);
-  }
+  for (const RegionDescription& region : body.regions) requireFiniteStress(region.initialStress);
 }
 
 /// Where labels or points meet, all may prescribe a motion of a node, but not differently. `displacements`
@@ -123,8 +113,6 @@ void requireOneDisplacement(const Supports& supports,
   }
 }
 
-}  // namespace
-
 std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
                                                  const std::vector<double>& angles) {
   StressLaw flow;
@@ -135,22 +123,28 @@ std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& desc
   return turnedMaterial(anisotropicMaterial(anisotropy, flow, plane), angles);
 }
 
+}  // namespace
+
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
-                                              const std::vector<Point>& places) {
-  if (description.anisotropy) return buildAnisotropic(description, plane, anglesOf(description, places));
+                                              const std::vector<double>& angles) {
+  if (description.anisotropy) return buildAnisotropic(description, plane, angles);
+  const bool space = plane == Plane::none;
   const Elasticity& elasticity = description.elasticity;
-  if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
-  if (const auto* viscoelasticity = description.as<Viscoelasticity>())
-    return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
+  if (const auto* norton = description.as<NortonCreep>())
+    return space ? spaceNortonMaterial(elasticity, *norton) : nortonMaterial(elasticity, *norton, plane);
+  if (const auto* relaxing = description.as<Viscoelasticity>())
+    return space ? spaceViscoelasticMaterial(elasticity, *relaxing)
+                 : viscoelasticMaterial(elasticity, *relaxing, plane);
   if (const auto* overstress = description.as<Overstress>())
-    return overstressMaterial(elasticity, *overstress, plane);
+    return space ? spaceOverstressMaterial(elasticity, *overstress)
+                 : overstressMaterial(elasticity, *overstress, plane);
   if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
-  const auto* viscoplasticity = description.as<Viscoplasticity>();
-  if (plane != Plane::stress) {
-    return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
-                           : planeStrainElasticMaterial(elasticity);
-  }
-  return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
+  const auto* perzyna = description.as<Viscoplasticity>();
+  if (plane == Plane::stress)
+    return perzyna ? perzynaMaterial(elasticity, *perzyna) : elasticMaterial(elasticity);
+  if (!perzyna) return space ? spaceElasticMaterial(elasticity) : planeStrainElasticMaterial(elasticity);
+  return space ? spacePerzynaMaterial(elasticity, *perzyna)
+               : planeStrainPerzynaMaterial(elasticity, *perzyna);
 }
 
 std::shared_ptr<const Material> materialOfRegions(
@@ -164,9 +158,7 @@ std::shared_ptr<const Material> materialOfRegions(
       materials.push_back(make(*region.material));
     }
   }
-  if (materials.size() == 1) {
-    return materials.front();
-  }
+  if (materials.size() == 1) return materials.front();
   for (const auto& material : materials)
     if (material->components() != materials.front()->components())
       throw InputError(body.where + ": body " + body.name +
@@ -183,9 +175,8 @@ namespace {
 
 void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
   for (size_t c = 0; c < stress.size(); ++c) {
-    if (stress[c]) {
+    if (stress[c])
       conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
-    }
   }
 }
 
@@ -218,7 +209,7 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
       });
   Conditions conditions;
   conditions.rigid = std::move(motion);
-  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),
+  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane), std::move(conditions),
           scene.degree, axisymmetric};
 }
 
@@ -242,18 +233,15 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   requireFiniteData(body, mesh, times);
   requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
   for (const int c : {0, 1}) {
-    if (body.force[c]) {
-      conditions.forces.push_back({c, finiteValue(*body.force[c])});
-    }
+    if (body.force[c]) conditions.forces.push_back({c, finiteValue(*body.force[c])});
   }
   addInitialStress(body.initialStress, std::nullopt, conditions);
-  for (const RegionDescription& region : body.regions) {
+  for (const RegionDescription& region : body.regions)
     addInitialStress(region.initialStress, region.label, conditions);
-  }
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
   const std::shared_ptr<const Material> material =
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {
-        return buildMaterial(description, scene.plane, places);
+        return buildMaterial(description, scene.plane, anglesOf(description, places));
       });
   if (body.temperature) {
     conditions.temperature = finiteValue(body.temperature->value);

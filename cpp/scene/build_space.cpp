@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "material/space.h"
 #include "scene/build.h"
-#include "scene/finite_value.h"
+#include "scene/expression.h"
 
 namespace mortier {
 namespace {
@@ -62,22 +61,6 @@ void requireOneMotion(const BodyDescription& description, const Body& body,
 
 }  // namespace
 
-std::shared_ptr<const Material> buildSpaceMaterial(const MaterialDescription& description,
-                                                   const std::vector<SpacePoint>& places) {
-  if (description.anisotropy)
-    return buildAnisotropic(description, Plane::none, anglesOf(description, places));
-  const Elasticity& elasticity = description.elasticity;
-  if (const auto* perzyna = description.as<Viscoplasticity>())
-    return spacePerzynaMaterial(elasticity, *perzyna);
-  if (const auto* norton = description.as<NortonCreep>()) return spaceNortonMaterial(elasticity, *norton);
-  if (const auto* viscoelasticity = description.as<Viscoelasticity>())
-    return spaceViscoelasticMaterial(elasticity, *viscoelasticity);
-  if (const auto* overstress = description.as<Overstress>())
-    return spaceOverstressMaterial(elasticity, *overstress);
-  if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, Plane::none);
-  return spaceElasticMaterial(elasticity);
-}
-
 Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, const SceneDescription& scene,
                     const std::vector<double>& times) {
   SpaceConditions conditions;
@@ -104,8 +87,9 @@ Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, co
   for (const RegionDescription& region : description.regions) addStress(region.initialStress, region.label);
   const std::vector<SpacePoint> places = placesOfPoints(mesh, scene.degree);
   const auto material =
-      materialOfRegions(description, mesh.regions, places.size(),
-                        [&](const MaterialDescription& each) { return buildSpaceMaterial(each, places); });
+      materialOfRegions(description, mesh.regions, places.size(), [&](const MaterialDescription& each) {
+        return buildMaterial(each, Plane::none, anglesOf(each, places));
+      });
   if (description.temperature) {
     conditions.temperature = finiteInSpace(description.temperature->value);
     conditions.expansion = expansionOf(description, mesh, Plane::none, places, times);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/whole_file.h"
@@ -38,9 +37,7 @@ Node convert(const toml::node& source, const Places& places) {
       break;
     case toml::node_type::array:
       node.kind = Node::Kind::array;
-      for (const toml::node& value : *source.as_array()) {
-        node.elements.push_back(convert(value, places));
-      }
+      for (const toml::node& value : *source.as_array()) node.elements.push_back(convert(value, places));
       break;
     case toml::node_type::string:
       node.kind = Node::Kind::string;
@@ -93,10 +90,9 @@ void requireShortKeys(const std::string& text, const std::string& place) {
       }
       i += quotes.size() - 1;
     } else if (c == '.') {
-      if (++names > longest) {
+      if (++names > longest)
         throw InputError(place + ":" + std::to_string(line) + ": a key of more than " +
                          std::to_string(longest) + " names, expected a key of a scene");
-      }
     } else if (c == '\n' || std::strchr("=,[]{}", c) != nullptr) {
       names = 1;
       line += c == '\n' ? 1 : 0;
@@ -154,9 +150,7 @@ Node parseSetting(const std::string& text, const std::string& where) {
   try {
     requireShortKeys(text, where);
     const toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1) {
-      return convert(*table.get("value"), {where, true});
-    }
+    if (table.size() == 1) return convert(*table.get("value"), {where, true});
   } catch (const toml::parse_error&) {  // a path or an expression: a plain string
   }
   Node node;

@@ -10,10 +10,8 @@
 #include <optional>
 #include <set>
 
-#include "base/datum_error.h"
+#include "base/error.h"
 #include "scene/document.h"
-#include "scene/finite_value.h"
-#include "scene/known_datum.h"
 
 namespace mortier {
 
@@ -78,9 +76,7 @@ bool assigns(const std::string& text) {
   for (size_t i = 0; i < text.size(); ++i) {
     const bool comparison = (i > 0 && std::string("=!<>").find(text[i - 1]) != std::string::npos) ||
                             (i + 1 < text.size() && text[i + 1] == '=');
-    if (text[i] == '=' && !comparison) {
-      return true;
-    }
+    if (text[i] == '=' && !comparison) return true;
   }
   return false;
 }
@@ -119,9 +115,7 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
   text.append(shortest(values.back())).append(times.size(), ')');
   Datum value = [times, values](double, double, double t) {
     const size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin();
-    if (i == 0 || i == times.size()) {
-      return i == 0 ? values.front() : values.back();
-    }
+    if (i == 0 || i == times.size()) return i == 0 ? values.front() : values.back();
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return (1 - part) * values[i - 1] + part * values[i];
   };
@@ -152,17 +146,11 @@ Expression negated(Expression expression) {
 }
 
 Expression parseExpression(const std::string& text, std::string where, bool inSpace) {
-  if (text.find_first_not_of(" \t\n\r") == std::string::npos) {
-    reject(where, "it is empty", inSpace);
-  }
-  if (assigns(text)) {
-    reject(where, "assignment is not allowed", inSpace);
-  }
+  if (text.find_first_not_of(" \t\n\r") == std::string::npos) reject(where, "it is empty", inSpace);
+  if (assigns(text)) reject(where, "assignment is not allowed", inSpace);
   try {
     Compiled compiled(text, inSpace);
-    if (compiled.values() != 1) {
-      reject(where, "it has several values", inSpace);
-    }
+    if (compiled.values() != 1) reject(where, "it has several values", inSpace);
     const std::set<std::string> variables = compiled.variables();
     if (variables.empty()) {
       const double value = compiled(0, 0, 0);
@@ -183,12 +171,9 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));
-    if (!reason.empty() && reason.back() == '.') {
-      reason.pop_back();
-    }
-    if (!reason.empty()) {
+    if (!reason.empty() && reason.back() == '.') reason.pop_back();
+    if (!reason.empty())
       reason.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(reason.front())));
-    }
     reject(where, reason, inSpace);
   }
 }
@@ -224,33 +209,35 @@ SpaceDatum finiteAt(const Expression& expression, bool inSpace) {
   };
 }
 
-void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
-                   const std::vector<double>& times) {
-  const SpaceDatum value = finiteInSpace(expression);
-  for (const double t : times)
-    for (const SpacePoint& p : points) value(p, t);
+namespace {
+
+template <class Place>
+double finiteAt(const Expression& expression, const Place& p, double t) {
+  SpacePoint x(p[0], p[1], 0);
+  std::optional<double> z;
+  if constexpr (Place::SizeAtCompileTime == 3) z = x[2] = p[2];
+  return finite(expression.at(x, t), expression.where, p[0], p[1], t, z);
 }
 
-void requireFinite(const Expression& expression, const std::vector<Point>& points,
+}  // namespace
+
+template <class Place>
+void requireFinite(const Expression& expression, const std::vector<Place>& points,
                    const std::vector<double>& times) {
   for (const double t : times)
-    for (const Point& p : points) finite(expression.value(p[0], p[1], t), expression.where, p[0], p[1], t);
+    for (const Place& p : points) finiteAt(expression, p, t);
 }
 
-template <>
-std::vector<double> valuesAt(const Expression& expression, const std::vector<Point>& points) {
+template <class Place>
+std::vector<double> valuesAt(const Expression& expression, const std::vector<Place>& points) {
   std::vector<double> values;
-  for (const Point& p : points)
-    values.push_back(finite(expression.value(p[0], p[1], 0), expression.where, p[0], p[1], 0));
+  for (const Place& p : points) values.push_back(finiteAt(expression, p, 0));
   return values;
 }
 
-template <>
-std::vector<double> valuesAt(const Expression& expression, const std::vector<SpacePoint>& points) {
-  const SpaceDatum value = finiteInSpace(expression);
-  std::vector<double> values;
-  for (const SpacePoint& p : points) values.push_back(value(p, 0));
-  return values;
-}
+template void requireFinite(const Expression&, const std::vector<Point>&, const std::vector<double>&);
+template void requireFinite(const Expression&, const std::vector<SpacePoint>&, const std::vector<double>&);
+template std::vector<double> valuesAt(const Expression&, const std::vector<Point>&);
+template std::vector<double> valuesAt(const Expression&, const std::vector<SpacePoint>&);
 
 }  // namespace mortier

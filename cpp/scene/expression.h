@@ -39,12 +39,27 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
 
 /// Evaluates at every point and time. \throws InputError naming the first point and time where it is not
 /// finite.
-void requireFinite(const Expression& expression, const std::vector<Point>& points,
+template <class Place>
+void requireFinite(const Expression& expression, const std::vector<Place>& points,
                    const std::vector<double>& times);
-void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
-                   const std::vector<double>& times);
-/// Its values at time 0. \throws InputError as these
+/// Its values at time 0. \throws InputError as this
 template <class Place>
 std::vector<double> valuesAt(const Expression& expression, const std::vector<Place>& points);
+
+// The value of a datum, or what is wrong with it.
+
+/// The value of the expression. Where that is not finite the function \throws DatumError naming the datum,
+/// the point and the time.
+Datum finiteValue(const Expression& expression);
+/// The same in space.
+SpaceDatum finiteInSpace(const Expression& expression);
+/// One of them.
+SpaceDatum finiteAt(const Expression& expression, bool inSpace);
+
+// What the text of an expression in x, y, t and z says about it without trying it at points: its degree in x,
+// y and z, and enclosures of it and its derivatives (base/taylor.h).
+
+/// Fills in the degree and the enclosures of a datum of that text; nothing where it is not a formula.
+void describe(const std::string& text, Datum& datum);
 
 }  // namespace mortier

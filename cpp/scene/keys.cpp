@@ -21,17 +21,6 @@ struct Tables {
   std::vector<Key> keys;
 };
 
-Keys split(const std::string& text, char at) {
-  Keys parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, at);) {
-    const size_t first = part.find_first_not_of(' ');
-    parts.push_back(first == std::string::npos ? ""
-                                               : part.substr(first, part.find_last_not_of(' ') - first + 1));
-  }
-  return parts;
-}
-
 /// "a", "b" at the beginning of a text.
 Keys quoted(const std::string& text) {
   Keys words;
@@ -199,6 +188,18 @@ std::string listedKeys() {
         text.append(expected).append(otherwise).append("\n");
       }
   return text;
+}
+
+Keys split(const std::string& text, char at) {
+  constexpr const char* blanks = " \r";
+  Keys parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) {
+    const size_t first = part.find_first_not_of(blanks);
+    parts.push_back(
+        first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(blanks) - first + 1));
+  }
+  return parts;
 }
 
 std::string joined(const Keys& keys, const std::string& separator) {

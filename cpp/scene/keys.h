@@ -57,6 +57,8 @@ std::string documentedKeys();
 /// A line a key, for people and for completion: its path, a tab, what it is.
 std::string listedKeys();
 
+/// The parts of a text between characters, without blanks at their ends.
+Keys split(const std::string& text, char at);
 /// "a, b, c".
 std::string joined(const Keys& keys, const std::string& separator = ", ");
 

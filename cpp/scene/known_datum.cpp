@@ -1,4 +1,4 @@
-#include "scene/known_datum.h"
+#include "scene/expression.h"
 
 #include <algorithm>
 #include <numbers>

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/finite_value.h"
-#include "scene/load_places.h"
+#include "scene/expression.h"
 
 namespace mortier {
 namespace {

@@ -1,5 +1,6 @@
-#include "scene/load_places.h"
+#include "scene/load_courses.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -25,12 +26,10 @@ struct Cell {
     return sum / static_cast<double>(corners.size());
   }
   [[nodiscard]] Box box() const {
-    SpacePoint low = corners[0];
-    SpacePoint high = corners[0];
-    for (const SpacePoint& corner : corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
+    Eigen::AlignedBox3d box;
+    for (const SpacePoint& corner : corners) box.extend(corner);
+    const SpacePoint low = box.min();
+    const SpacePoint high = box.max();
     return {{low.x(), high.x()}, {low.y(), high.y()}, time, {low.z(), high.z()}};
   }
   /// The two corners of the longest side.
@@ -218,13 +217,9 @@ LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* labe
       cells.push_back({std::move(corners), false, {0, end}});
     }
   } else if (!parts.vertices.empty()) {
-    SpacePoint low = parts.vertices[0];
-    SpacePoint high = low;
+    Eigen::AlignedBox3d box;
     const size_t stride = 1 + 2 * parts.elements.size() / mostCandidates;
-    for (const SpacePoint& p : parts.vertices) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    for (const SpacePoint& p : parts.vertices) box.extend(p);
     for (size_t e = 0; e < parts.elements.size(); e += stride) {
       const std::vector<int>& element = parts.elements[e];
       SpacePoint sum = SpacePoint::Zero();
@@ -232,7 +227,7 @@ LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* labe
       candidates.push_back(parts.vertices[element[0]]);
       candidates.emplace_back(sum / static_cast<double>(element.size()));
     }
-    cells.push_back({{low, high}, true, {0, end}});
+    cells.push_back({{box.min(), box.max()}, true, {0, end}});
   }
   if (candidates.empty()) return {};
   if (datum.value.degree == 0) return loadPlaces(datum, candidates.front(), end);

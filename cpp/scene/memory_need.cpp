@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {

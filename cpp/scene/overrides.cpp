@@ -19,16 +19,14 @@ Setting parse(const std::string& text) {
   constexpr size_t longest = 200;  // it stands in every value of the setting
   const std::string where = "--set " + printable(text, longest);
   const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  if (equals == std::string::npos || equals == 0)
     throw InputError(where + ": expected key=value, e.g. time.steps=20");
-  }
   std::vector<std::string> path;
   for (size_t begin = 0; begin <= equals;) {
     const size_t end = std::min(text.find('.', begin), equals);
     path.push_back(text.substr(begin, end - begin));
-    if (path.back().empty()) {
+    if (path.back().empty())
       throw InputError(where + ": the key has an empty component, expected e.g. body.upper.mesh");
-    }
     begin = end + 1;
   }
   return {where, path, parseSetting(text.substr(equals + 1), where)};
@@ -37,13 +35,9 @@ Setting parse(const std::string& text) {
 /// What an element of an array of tables is called by: its name or its label.
 std::string handle(const Node& element) {
   const Node* name = element.find("name");
-  if (name != nullptr && name->isString()) {
-    return name->text;
-  }
+  if (name != nullptr && name->isString()) return name->text;
   const Node* label = element.find("label");
-  if (label != nullptr && label->isString()) {
-    return label->text;
-  }
+  if (label != nullptr && label->isString()) return label->text;
   return label != nullptr && label->isNumeric() ? shortest(label->value) : "";
 }
 
@@ -62,16 +56,13 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
       named = true;
     }
   }
-  if (named) {
-    return;
-  }
+  if (named) return;
   size_t index = 0;
   const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), index);
   const bool isIndex = status == std::errc() && end == word.data() + word.size() &&
                        schemaPath != "body.boundary" && schemaPath != "body.region";
-  if (isIndex && index < array.elements.size() && depth + 1 < setting.path.size()) {
+  if (isIndex && index < array.elements.size() && depth + 1 < setting.path.size())
     return set(array.elements[index], setting, depth + 1, schemaPath);
-  }
   const Keys& keys = keysOf(schemaPath);
   if (!isOneOf(word, keys)) {
     handles.erase(std::remove(handles.begin(), handles.end(), ""), handles.end());
@@ -79,9 +70,7 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
                      (handles.empty() ? "" : "one of " + joined(handles) + ", or ") +
                      "a key: " + joined(keys));
   }
-  for (Node& element : array.elements) {
-    set(element, setting, depth, schemaPath);
-  }
+  for (Node& element : array.elements) set(element, setting, depth, schemaPath);
 }
 
 void set(Node& table, const Setting& setting, size_t depth, const std::string& schemaPath) {

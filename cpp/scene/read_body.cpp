@@ -108,9 +108,7 @@ void readRegion(const Node& node, BodyDescription& body) {
 /// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
 std::string pathOf(const Node& node, const std::string& scenePath) {
   const std::filesystem::path path(node.text);
-  if (path.is_absolute() || node.fromCommandLine) {
-    return path.string();
-  }
+  if (path.is_absolute() || node.fromCommandLine) return path.string();
   return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
 }
 

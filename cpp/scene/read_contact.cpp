@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/fault_error.h"
+#include "base/error.h"
 #include "scene/readers.h"
 
 namespace mortier {
@@ -48,9 +48,7 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
     if (const Node* node = table.find(other))
       table.refuse(*node,
                    std::string(other) + " beside sides, expected either sides or nonmortar and mortar");
-  if (sides.size() != 2) {
-    table.reject("sides", std::string("two tables [") + example + ", " + example + "]");
-  }
+  if (sides.size() != 2) table.reject("sides", std::string("two tables [") + example + ", " + example + "]");
   contact.nonmortar = readSide(*sides[0], "sides", scene);
   contact.mortar = readSide(*sides[1], "sides", scene);
   const int tools = (isTool(contact.nonmortar) ? 1 : 0) + (isTool(contact.mortar) ? 1 : 0);
@@ -116,19 +114,17 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   const bool swap = table.boolean("swap");
   contact.otherSide = swap && !contact.sidesGiven;
   if (swap && contact.sidesGiven) std::swap(contact.nonmortar, contact.mortar);
-  if (contact.nonmortar.body == contact.mortar.body) {
+  if (contact.nonmortar.body == contact.mortar.body)
     throw FaultError(table.message(contact.mortar.where,
                                    "both sides are body " + contact.mortar.body + ", expected two bodies"),
                      "same-body");
-  }
   for (const ContactDescription& other : scene.contacts) {
     if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
         other.nonmortar.labelName == contact.nonmortar.labelName && contact.sidesGiven && other.sidesGiven &&
-        !scene.bodies[bodyIndex(scene, contact.mortar.body)].isTool()) {
+        !scene.bodies[bodyIndex(scene, contact.mortar.body)].isTool())
       throw InputError(table.message(contact.nonmortar.where,
                                      "label " + std::to_string(contact.nonmortar.label) + " of body " +
                                          contact.nonmortar.body + " is nonmortar twice, expected once"));
-    }
   }
   return contact;
 }

@@ -1,4 +1,5 @@
 // [[tool]]: a rigid body by its outline and its motion.
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
@@ -86,13 +87,9 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
 
 /// Where the outline says nothing else: in the middle of its extents.
 Point middleOf(const std::vector<Point>& points) {
-  Point low = points.front();
-  Point high = low;
-  for (const Point& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return (low + high) / 2;
+  Eigen::AlignedBox2d box;
+  for (const Point& x : points) box.extend(x);
+  return box.center();
 }
 
 void readMotion(const TableReader& table, bool axisymmetric, BodyDescription& tool) {

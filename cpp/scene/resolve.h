@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/triangle_mesh.h"
 #include "scene/scene.h"
 
 namespace mortier {
@@ -32,21 +33,10 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
 
 // Parts of it.
 
-/// The number of a label of the boundary that a scene gives as a number or, unless `name` is empty, as a
-/// name.
-/// \throws InputError, headed by `place` ("scene.toml:9: body upper"), with the labels that the mesh has.
-int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
-int boundaryLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place);
-
-/// The same for a label of a region.
-int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
-int regionLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place);
-
 /// Where the vertex lies that a scene means by a point: the nearest one, no further off than a thousandth of
 /// the shortest edge there.
 /// \throws InputError, headed by `place`, with that vertex and its distance.
 Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
-SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, const std::string& place);
 
 // Which volumetric strain the material of a body sees where the scene leaves it open (`volumes`).
 
@@ -91,5 +81,13 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
 /// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
 /// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
 void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+
+// Which displacements of a mesh the conditions of a body prescribe along x and y.
+
+/// The axis (0: x, 1: y) along which a component (fem/supports.h) of an edge is; none where it is oblique.
+std::optional<int> axisOf(int component, const Point& from, const Point& to);
+
+/// Per dof 2 vertex + axis, whether a displacement is prescribed.
+std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<ConditionDescription>& conditions);
 
 }  // namespace mortier

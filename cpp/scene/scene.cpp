@@ -12,16 +12,13 @@ namespace {
 /// In plane stress there is no s33.
 void requireInPlane(const BodyDescription& body, Plane plane) {
   const auto require = [&](const StressDescription& stress) {
-    if (plane == Plane::stress && stress[3]) {
+    if (plane == Plane::stress && stress[3])
       throw InputError(
           stress[3]->where +
           ", expected plane = \"strain\" beside it, or \"axisymmetric\": s33 is 0 in plane stress");
-    }
   };
   require(body.initialStress);
-  for (const RegionDescription& region : body.regions) {
-    require(region.initialStress);
-  }
+  for (const RegionDescription& region : body.regions) require(region.initialStress);
   if (plane == Plane::stress && body.volume == Volume::averaged)
     throw InputError(body.volumeWhere +
                      ", expected plane = \"strain\" or \"axisymmetric\" beside it: in plane stress the "
@@ -132,15 +129,12 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     scene.solver.reduce = solver.boolean("reduce");
     scene.solver.listSolutions = solver.boolean("list_solutions");
   }
-  if (const Node* node = root.find("accuracy")) {
+  if (const Node* node = root.find("accuracy"))
     readAccuracy(TableReader(*node, "accuracy", "accuracy"), scene);
-  }
-  if (const Node* node = root.find("output")) {
+  if (const Node* node = root.find("output"))
     scene.every = TableReader(*node, "output", "output").integer("every");
-  }
-  if (const Node* node = root.find("check")) {
+  if (const Node* node = root.find("check"))
     scene.allowed = TableReader(*node, "check", "check").strings("allow");
-  }
 }
 
 void requireOwnName(const SceneDescription& scene, const BodyDescription& body) {
@@ -217,9 +211,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
   const std::vector<const Node*> bodies = root.tables("body");
-  if (bodies.empty()) {
-    root.reject("body", "at least one table [[body]]");
-  }
+  if (bodies.empty()) root.reject("body", "at least one table [[body]]");
   for (size_t i = 0; i < bodies.size(); ++i) {
     BodyDescription body = readBody(*bodies[i], path, i);
     requireOwnName(scene, body);
@@ -232,21 +224,18 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
     if (scene.accuracy.energy > 0 && scene.degree == 2 &&
-        scene.contacts.back().variant == CouplingKind::mortar) {
+        scene.contacts.back().variant == CouplingKind::mortar)
       throw InputError(
           scene.contacts.back().where +
           ": contact: variant = \"mortar\", expected weighted beside accuracy and degree = 2: with no "
           "other does the estimate know the contact line");
-    }
-    if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation) {
+    if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation)
       throw InputError(scene.contacts.back().where + ": contact: variant = \"interpolation\", expected " +
                        (scene.degree == 2 ? "weighted" : "mortar") +
                        " beside accuracy: the estimate does not see the false stresses of interpolation");
-    }
   }
-  for (const Node* quantity : root.tables("quantity")) {
+  for (const Node* quantity : root.tables("quantity"))
     scene.quantities.push_back(readQuantity(*quantity, scene));
-  }
   requireToolsTouch(scene);
   for (const ContactDescription& contact : scene.contacts)
     scene.time.slidingAllowed.push_back(contact.sliding != SlidingKind::refuse);
@@ -299,9 +288,7 @@ bool isName(const std::string& text) {
 
 int bodyIndex(const SceneDescription& scene, const std::string& name) {
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == name) {
-      return static_cast<int>(i);
-    }
+    if (scene.bodies[i].name == name) return static_cast<int>(i);
   }
   return -1;
 }

@@ -98,7 +98,7 @@ struct TemperatureDescription {
   std::string where;
 };
 
-/// The volumetric strain that the material of a body sees (fem/volume_patches.h).
+/// The volumetric strain that the material of a body sees (fem/tangent_assembly.h).
 enum class Volume { automatic, pointwise, averaged };
 
 struct BodyDescription {

@@ -1,9 +1,9 @@
-#include "scene/table_reader.h"
+#include "scene/readers.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "base/error.h"
 
 namespace mortier {

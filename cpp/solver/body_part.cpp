@@ -1,7 +1,6 @@
-#include "solver/body_part.h"
+#include "solver/model.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "fem/rigid_modes.h"
 #include "linear/partition.h"

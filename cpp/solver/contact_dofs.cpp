@@ -1,4 +1,4 @@
-#include "solver/contact_dofs.h"
+#include "solver/condensed_body.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "solver/methods.h"
 
 namespace mortier {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
-#include "base/two_part_sums.h"
+#include "base/two_part_vector.h"
 #include "solver/friction_sets.h"
 
 namespace mortier {

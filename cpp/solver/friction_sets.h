@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/two_part_sums.h"
+#include "base/two_part_vector.h"
 #include "solver/dense_factor.h"
 #include "solver/friction.h"
 

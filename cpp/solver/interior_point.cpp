@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "material/interior_path.h"
 #include "solver/methods.h"
 

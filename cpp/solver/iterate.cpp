@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/total_strain.h"
+#include "solver/state.h"
 
 namespace mortier {
 

@@ -3,14 +3,63 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "base/ranks.h"
 #include "contact/interface.h"
 #include "fem/body.h"
 #include "linear/condensing_solver.h"
-#include "solver/body_part.h"
 
 namespace mortier {
+
+// A run distributed over several ranks: every triangle belongs to one rank, whose model has the part of each
+// body made of its triangles (fem/body.h), with local numbering. Nodes shared by several ranks are identified
+// by global numbers.
+
+/// What a rank knows of its part of a body.
+struct BodyPart {
+  BodyCut cut;
+  int wholePoints = 0;
+  int pointsOfTriangle = 1;
+  std::vector<char> own;  ///< by nodes, whether a triangle of this rank has it
+  std::vector<char>
+      owned;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
+  /// Nodes that several ranks have, ascending, and the place of each among those of all ranks: those of
+  /// triangles of several, the labelled boundary, and supports.
+  std::vector<int> shared;
+  std::vector<int> places;
+  int placesOfAll = 0;
+  Matrix motions;  ///< rigid ones of the whole body, by dofs of the part
+
+  // On the first rank alone.
+
+  const Body* whole = nullptr;
+  /// By ranks: the triangles, and the nodes that they are owned for; numbers in the whole body.
+  std::vector<std::vector<int>> trianglesOf = {};
+  std::vector<std::vector<int>> nodesOf = {};
+};
+
+/// By bodies, the rank of each triangle: the bodies one after the other are cut into as many equal shares as
+/// there are ranks; a body of several shares is cut where few of its nodes lie. Collective.
+std::vector<std::vector<int>> ownersOf(const std::vector<Body>& bodies, Ranks& ranks);
+
+/// The part of this rank. \param owner  rank of each triangle
+BodyPart partOf(const Body& whole, const std::vector<int>& owner, Ranks& ranks);
+
+/// A nodal sum (dofs) over the triangles of each rank becomes that of all, where several have a node.
+/// Collective.
+void sumAtNodes(const BodyPart& part, Ranks& ranks, Vector& nodal);
+/// A nodal vector (dofs) that is known where this rank owns a node becomes known at all nodes that it has.
+/// Collective.
+void completeAtNodes(const BodyPart& part, Ranks& ranks, Vector& nodal);
+/// Nodal vectors (dofs) and columns by points, of all ranks: of the whole body on the first rank, empty on
+/// others. Collective.
+Vector gatheredNodes(const BodyPart& part, Ranks& ranks, const Vector& nodal);
+Matrix gatheredPoints(const BodyPart& part, Ranks& ranks, const Matrix& columns);
+/// The reverse, from what this rank has of the whole.
+Vector nodesOfPart(const BodyPart& part, const Vector& nodal);
+Matrix pointsOfPart(const BodyPart& part, const Matrix& columns);
 
 /// Of the bodies, all of it or the parts of one rank; interfaces are whole, in the numbers of these bodies.
 /// A rank knows the displacements of all its nodes, and so gaps, slips and contact forces; what is summed
@@ -118,5 +167,17 @@ LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions&
 /// Whether contact is solved without dense matrices over its conditions.
 bool solvesSparse(const Model& model, const SolverOptions& options);
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options);
+
+// How many threads work on a model.
+
+/// Threads that are worth their start, at most so many.
+inline int threadsFor(const Model& model, int most) {
+  constexpr size_t trianglesWorthThreads = 30000;
+  constexpr size_t trianglesOfTetrahedron = 30;  // of as much work, fill of the factor included
+  size_t triangles = 0;
+  for (const Body& body : model.bodies)
+    triangles += (body.space() != nullptr ? trianglesOfTetrahedron : 1) * body.elements();
+  return triangles >= trianglesWorthThreads ? most : 1;
+}
 
 }  // namespace mortier

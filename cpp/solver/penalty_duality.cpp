@@ -19,8 +19,8 @@
 #include <optional>
 #include <sstream>
 
-#include "base/counted.h"
 #include "base/dense_templates.h"
+#include "base/digits.h"
 #include "base/worst.h"
 #include "solver/methods.h"
 

@@ -1,7 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "solver/friction_sets.h"
 #include "solver/step_system.h"
 

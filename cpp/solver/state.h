@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "material/material.h"
 
 namespace mortier {
 
@@ -124,5 +125,20 @@ struct StepReport {
   std::vector<double> frictionWork;  ///< of each interface with friction, dissipated so far [J/m]
   StepSolutions solutions;           ///< with friction
 };
+
+// The total strain of a state, for laws that depend on it.
+
+/// E^-1 s and the viscoplastic strain [-]: since t = 0, with the elastic strain of the stress that was there.
+inline Matrix totalStrain(const Material& material, const BodyState& state) {
+  Matrix strain;
+  material.elasticStrain(state.stress, strain);
+  strain += state.viscoplasticStrain;
+  return strain;
+}
+
+/// That, where the law depends on it; nothing elsewhere.
+inline Matrix strainOfLaw(const Material& material, const BodyState& state) {
+  return material.needsTotalStrain() ? totalStrain(material, state) : Matrix();
+}
 
 }  // namespace mortier

@@ -1,4 +1,6 @@
 // Friction in the contact problem of a linearised step.
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -79,6 +81,110 @@ ContactSolution StepSystem::Condensed::solveFriction() const {
   solution.active = found.sets.closed;
   solution.slipping = found.sets.slip;
   return solution;
+}
+
+bool StepSystem::Factorised::solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const {
+  Condensed condensed = condense(step, iterate);
+  const ContactSolution contact = condensed.solveContact();
+  return std::move(condensed).expand(contact, iterate, outcome);
+}
+
+ContactSolution StepSystem::Condensed::solveContact() const {
+  if (system_->hasFriction()) return solveFriction();
+  const ContactProblem& problem = system_->contact_;
+  SpecialConditions& special = system_->special_;
+  Vector motion;
+  ContactSolution solution = system_->sparse()
+                                 ? solveSparse(*system_->sparse_, problem, system_->gathered(force), slack,
+                                               p0, balance, sets.closed, motion)
+                                 : mortier::solveContact(problem, slack, p0, balance, sets.closed);
+  if (system_->sparse() && solution.outcome == ContactSolution::Outcome::solved)
+    solution.motion = system_->spread(motion, solution.rigid);
+  if (!anyFollows(system_->model_))  // where rows follow, those that face nothing are idle too
+    special.idle = std::max(special.idle, solution.idle);
+  if (solution.dependent && special.dependent == 0) special.dependent = dependentConditions(problem.W);
+  return solution;
+}
+
+Vector StepSystem::gathered(const std::vector<Vector>& nodal) const {
+  const std::vector<int>& first = sparse_->firstEquation();
+  Vector x(first.back());
+  for (size_t b = 0; b < nodal.size(); ++b)
+    x.segment(first[b], first[b + 1] - first[b]) = model_.bodies[b].gather(nodal[b]);
+  return x;
+}
+
+std::vector<Vector> StepSystem::spread(const Vector& x, const Vector& rigid) const {
+  const std::vector<int>& first = sparse_->firstEquation();
+  std::vector<Vector> nodal;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    nodal.push_back(model_.bodies[b].spread(x.segment(first[b], first[b + 1] - first[b])));
+    if (const Matrix& motions = bodies_[b].contact().motions; motions.cols() > 0)
+      nodal.back() += motions * motionOf(rigid, b);
+  }
+  return nodal;
+}
+
+ContactSolution StepSystem::holdClosedSparse(const std::vector<Vector>& force, const Vector& slack,
+                                             const Iterate& on) const {
+  sparse_->setSprings(contact_.proximal);
+  const Vector none = Vector::Zero(contact_.G.cols());
+  const Vector zero = Vector::Zero(rows());
+  SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
+  if (sparse_->factorise(joinedSets(on).closed))
+    held = sparse_->solve(gathered(force), zero, slack, none, true);
+  ContactSolution solution;
+  solution.motion = spread(held.motion, held.rigid);
+  return solution;
+}
+
+void StepSystem::agreeOnLaws(const Step& step, const Iterate& iterate) {
+  constexpr size_t each = 5;
+  std::vector<double> largest;
+  std::vector<double> elastic;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const auto facts = bodies_[b].factsOfPart(step.state0.bodies[b].stress, iterate.bodies[b]);
+    largest.insert(largest.end(), {facts.change, facts.predictor, facts.modulus, facts.before, facts.stress});
+    elastic.push_back(facts.elastic);
+  }
+  model_.largest(largest.data(), largest.size());
+  model_.sum(elastic.data(), elastic.size());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const double* of = &largest[each * b];
+    bodies_[b].take({of[0], of[1], of[2], of[3], of[4], elastic[b]});
+  }
+}
+
+std::vector<Vector> StepSystem::condenseBodies(const std::vector<Vector>& force) {
+  std::vector<Vector> motion(bodies_.size());
+  const bool parts = model_.inParts();
+  forEachBody([&](int b) {
+    bodies_[b].condense(force[b]);
+    if (!parts) motion[b] = bodies_[b].joinCondensed();
+  });
+  for (size_t b = 0; b < bodies_.size() && parts; ++b) motion[b] = bodies_[b].joinCondensed();
+  return motion;
+}
+
+void StepSystem::expandBodies(const ContactSolution& contact,
+                              const std::function<void(int, const Vector&)>& take) {
+  if (sparse()) {
+    forEachBody([&](int b) { take(b, contact.motion[b]); });
+    return;
+  }
+  const auto moveContact = [&](int b) { bodies_[b].moveContact(contact.change, motionOf(contact.rigid, b)); };
+  if (!model_.inParts()) {
+    forEachBody([&](int b) {
+      moveContact(b);
+      take(b, bodies_[b].expand());
+    });
+    return;
+  }
+  std::vector<Vector> motion(bodies_.size());
+  for (size_t b = 0; b < bodies_.size(); ++b) moveContact(static_cast<int>(b));
+  forEachBody([&](int b) { motion[b] = bodies_[b].expand(); });
+  for (size_t b = 0; b < bodies_.size(); ++b) completeAtNodes(model_.parts[b], *model_.ranks, motion[b]);
+  forEachBody([&](int b) { take(b, motion[b]); });
 }
 
 }  // namespace mortier

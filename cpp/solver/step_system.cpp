@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/blocks.h"
-#include "base/counted.h"
+#include "base/digits.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/worst.h"
-#include "solver/threads_for.h"
-#include "solver/total_strain.h"
+#include "solver/model.h"
+#include "solver/state.h"
 
 namespace mortier {
 namespace {

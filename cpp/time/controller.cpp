@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
-#include "base/datum_error.h"
-#include "base/shared_fault.h"
+#include "base/error.h"
+#include "base/ranks.h"
 
 namespace mortier {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "base/datum_error.h"
-#include "base/shared_fault.h"
+#include "base/error.h"
+#include "base/ranks.h"
 #include "time/controller.h"
 #include "time/initial_balance.h"
 #include "time/measure.h"

@@ -7,8 +7,8 @@
 #include "base/adaptive_quadrature.h"
 #include "fem/element.h"
 #include "fem/tetrahedron.h"
-#include "mesh/axis.h"
 #include "mesh/boundary_line.h"
+#include "mesh/triangle_mesh.h"
 #include "time/quantity.h"
 
 namespace mortier {

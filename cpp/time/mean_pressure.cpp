@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "mesh/axis.h"
 #include "mesh/boundary_line.h"
+#include "mesh/triangle_mesh.h"
 #include "time/nodal_forces.h"
 
 namespace mortier {

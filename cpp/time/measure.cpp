@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "base/worst.h"
 #include "material/stress.h"
 

@@ -1,4 +1,4 @@
-// What a run has by nodes and points, from the whole bodies to the parts of a rank (solver/body_part.h) and
+// What a run has by nodes and points, from the whole bodies to the parts of a rank (solver/model.h) and
 // back.
 #pragma once
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "material/stress.h"
-#include "solver/threads_for.h"
+#include "solver/model.h"
 
 namespace mortier {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/dense_templates.h"
-#include "solver/total_strain.h"
+#include "solver/state.h"
 #include "time/error_norms.h"
 #include "time/step_taker.h"
 

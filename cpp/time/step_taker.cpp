@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "material/stress.h"
-#include "solver/total_strain.h"
+#include "solver/state.h"
 #include "time/measure.h"
 
 namespace mortier {

@@ -346,8 +346,9 @@ class Theory(unittest.TestCase):
         self.assertEqual(called[:2], ["solveStep", "newton"])
         self.assertIn("newton(", (solver / "solve_step.cpp").read_text())
         # newton() calls Factorised::solve, which condenses, solves contact and expands.
+        solve = (solver / "step_friction.cpp").read_text().partition("Factorised::solve(")[2]
         iteration = (solver / "newton.cpp").read_text().replace(
-            "factorised->solve(", (solver / "condensed_contact.cpp").read_text().partition("\n}\n")[0])
+            "factorised->solve(", solve.partition("\n}\n")[0])
         words = re.findall(r"(\w+)\(", iteration)
         self.assertEqual(list(dict.fromkeys(word for word in words if word in called)), called[1:])
 

@@ -17,8 +17,6 @@
 #include "base/archive.h"
 #include "base/error.h"
 #include "base/printable.h"
-#include "mesh/gmsh.h"
-#include "mesh/medit.h"
 #include "mesh/read.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_members.h"

@@ -5,7 +5,7 @@
 
 #include "fem/tetrahedron.h"
 #include "material/space.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "theory/half_open_contact.h"
 
 namespace mortier::scenes {

@@ -5,8 +5,8 @@
 
 #include <iostream>
 
+#include "solver/methods.h"
 #include "solver/solve_step.h"
-#include "solver/viscosity_walk.h"
 
 namespace mortier::hard_cases_test {
 

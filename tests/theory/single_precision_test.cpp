@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "material/space.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "time/march.h"
 
 namespace mortier::single_precision_test {

@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "material/space.h"
-#include "solver/threads_for.h"
 #include "theory/extruded_contact.h"
 #include "time/space_error.h"
 

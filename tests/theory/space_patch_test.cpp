@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "material/space.h"
 #include "material/stress.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "time/march.h"
 
 namespace mortier::space_patch_test {

@@ -247,7 +247,7 @@ inline Case randomCase(unsigned seed) {
               of.degree);
   of.model = contactModel(std::move(first), std::move(second), of.coupling, upperBody, options);
   of.plan = {.end = 1, .steps = 0, .scheme = of.scheme, .tolerance = of.tolerance, .maxSteps = 30000};
-  // Places whose courses are independent (scene/load_places.h).
+  // Places whose courses are independent (scene/load_courses.h).
   for (int i = 0; i <= (of.place < 3 ? 0 : of.place == 3 ? 1 : 8); ++i) {
     const auto at = [=, x = of.place == 3 ? i : i / 8.0](double t) { return datum(x, 0, t); };
     of.plan.data.push_back(of.shape.table.empty() ? resolve(at, 0, 1, 100000)

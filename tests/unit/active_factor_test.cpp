@@ -1,5 +1,5 @@
 // Factors that follow a changing set solve as factors of the set itself do.
-#include "solver/active_factor.h"
+#include "solver/proximal_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include "adapt/adapted_meshes.h"
 #include "mesh/boundary_line.h"
 #include "mesh/shape.h"
-#include "mesh/space_shapes.h"
 
 namespace mortier::adapt_test {
 

@@ -1,5 +1,5 @@
 // The arcs behind polygonal lines.
-#include "contact/arcs.h"
+#include "contact/smooth_part.h"
 
 #include <gtest/gtest.h>
 

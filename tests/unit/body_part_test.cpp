@@ -1,5 +1,5 @@
 // Parts of bodies: their sums are those of the whole body, and ranks that have a part each march as one does.
-#include "solver/body_part.h"
+#include "solver/model.h"
 
 #include <gtest/gtest.h>
 

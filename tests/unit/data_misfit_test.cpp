@@ -8,7 +8,7 @@
 #include "fem/body.h"
 #include "material/elasticity.h"
 #include "material/plane_strain.h"
-#include "scene/known_datum.h"
+#include "scene/expression.h"
 
 namespace mortier::data_misfit_test {
 

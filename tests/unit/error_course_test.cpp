@@ -1,5 +1,5 @@
 // The course of an error: weights of a step, and the largest integral of a rate that obeys its sums.
-#include "bound/error_course.h"
+#include "bound/flowing_body.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,6 @@
 #include "base/error.h"
 #include "contact/interface.h"
 #include "mesh/boundary_line.h"
-#include "mesh/gmsh.h"
 #include "mesh/read.h"
 #include "unit/mesh_measures.h"
 

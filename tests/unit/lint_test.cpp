@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "base/counted.h"
+#include "base/digits.h"
 #include "lint/fault.h"
 #include "lint/topology.h"
 #include "mesh/boundary_line.h"

@@ -1,11 +1,9 @@
-#include "scene/load_places.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "mesh/generate.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 #include "scene/expression.h"
 #include "scene/load_courses.h"
 #include "unit/scene_folder.h"

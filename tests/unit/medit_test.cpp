@@ -1,4 +1,4 @@
-#include "mesh/medit.h"
+#include "mesh/read.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

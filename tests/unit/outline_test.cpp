@@ -1,5 +1,5 @@
 // Meshes of rigid bodies, which are made from their outlines.
-#include "mesh/outline.h"
+#include "mesh/shape.h"
 
 #include <gtest/gtest.h>
 

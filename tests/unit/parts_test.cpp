@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/blocks.h"
+#include "base/parallel.h"
 #include "material/interior_path.h"
 #include "time/march.h"
 #include "unit/one_point.h"

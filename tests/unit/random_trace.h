@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/segments.h"
+#include "contact/smooth_part.h"
 
 namespace mortier {
 

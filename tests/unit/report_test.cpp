@@ -8,8 +8,7 @@
 #include "material/stress.h"
 #include "report/fields.h"
 #include "report/log.h"
-#include "report/summary.h"
-#include "report/tables.h"
+#include "report/result_files.h"
 #include "unit/blocks_of_one_cell.h"
 #include "unit/result_folder.h"
 

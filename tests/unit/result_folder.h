@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "report/manifest.h"
-#include "report/output_file.h"
 
 namespace mortier {
 

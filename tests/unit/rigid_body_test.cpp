@@ -6,7 +6,7 @@
 #include "fem/body.h"
 #include "fem/rigid_modes.h"
 #include "material/elasticity.h"
-#include "mesh/outline.h"
+#include "mesh/shape.h"
 
 namespace mortier::rigid_body_test {
 

@@ -1,5 +1,5 @@
 // Curves by points of them, and meshes whose edges stand for them.
-#include "mesh/sampled_curve.h"
+#include "mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "mesh/medit.h"
+#include "mesh/read.h"
 #include "scene/build.h"
 
 namespace mortier {

@@ -10,7 +10,7 @@
 #include "scene/document.h"
 #include "scene/keys.h"
 #include "scene/load_courses.h"
-#include "scene/table_reader.h"
+#include "scene/readers.h"
 #include "unit/messages.h"
 #include "unit/scene_folder.h"
 

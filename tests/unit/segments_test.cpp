@@ -1,4 +1,4 @@
-#include "contact/segments.h"
+#include "contact/smooth_part.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,7 @@
 #include <numbers>
 
 #include "bound/side_datum.h"
-#include "bound/triangle_datum.h"
 #include "scene/expression.h"
-#include "scene/finite_value.h"
 
 namespace mortier::side_datum_test {
 

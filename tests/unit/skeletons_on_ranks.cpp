@@ -10,7 +10,7 @@
 #include <typeinfo>
 #include <vector>
 
-#include "ranks/mumps_skeleton.h"
+#include "ranks/mpi_ranks.h"
 
 namespace mortier {
 namespace {

@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "contact/interface.h"
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 
 namespace mortier::space_interface_test {
 

@@ -11,7 +11,6 @@
 #include "fem/body.h"
 #include "material/space.h"
 #include "material/stress.h"
-#include "mesh/medit.h"
 #include "mesh/read.h"
 #include "mesh/regions.h"
 #include "unit/space_meshes.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mesh/space_shapes.h"
+#include "mesh/shape.h"
 
 namespace mortier {
 

@@ -1,5 +1,5 @@
 // Meshes of the plane that are extruded or turned: volumes and areas of the polygons that they are, labels.
-#include "mesh/swept_mesh.h"
+#include "mesh/read.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The averaged volumetric strain: patches, what it reproduces, forces and tangent that fit it.
-#include "fem/volume_patches.h"
+#include "fem/tangent_assembly.h"
 
 #include <gtest/gtest.h>
 
