@@ -12,7 +12,7 @@ of the half plane, discretised); where the shear stress is taken to leave the pr
 K(c/a)/K'(c/a) = mu/beta, which is printed: 0.7071.
 
 What the figure needs: a half plane that is large beside the contact (--width, half of it: 12 half widths
-are not, sideways it gives way like a block, and c/a is 0.78), triangles as high as they are long down to the
+are not, it moves sideways like a block, and c/a is 0.78), triangles as high as they are long down to the
 depth of the contact (ten times too long they made it 0.70), and steps.
 """
 import argparse
