@@ -87,9 +87,11 @@ double Body::largestForce(const Matrix& stress) const {
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     for (size_t i = 0; i < weights_.size(); ++i) {
-      const auto s = stress.col(static_cast<Eigen::Index>(i)).head<3>().cwiseAbs();
+      double steepest = 0;
       for (const double gradient : triangles.gradientsOf<Element>(i))
-        largest = std::max(largest, weights_[i] * std::abs(gradient) * s.maxCoeff());
+        steepest = std::max(steepest, std::abs(gradient));
+      const double most = stress.col(static_cast<Eigen::Index>(i)).head<3>().cwiseAbs().maxCoeff();
+      largest = std::max(largest, weights_[i] * steepest * most);
       for (size_t a = Element::nodes * i; axisymmetric_ && a < Element::nodes * (i + 1); ++a)
         largest =
             std::max(largest, weights_[i] * std::abs(hoops_[a] * stress(3, static_cast<Eigen::Index>(i))));
