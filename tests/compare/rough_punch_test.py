@@ -11,7 +11,7 @@ from support import PROGRAM, ROOT
 class RoughPunch(unittest.TestCase):
     def test_sticks_where_it_should(self):
         done = subprocess.run([sys.executable, ROOT / "bench/rough_punch.py", "--program", PROGRAM, "--cells",
-                               "24", "--width", "100", "--tolerance", "0.1", "--equal", "1"],
+                               "24", "--width", "100", "--tolerance", "0.05", "--equal", "1"],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("c/a 0.7071", done.stdout)  # the shear stress leaving the pressure alone
@@ -20,7 +20,7 @@ class RoughPunch(unittest.TestCase):
         self.assertAlmostEqual(chosen, 0.680, delta=0.02)
         self.assertEqual(one, 1)
         self.assertLess(once, 0.3)
-        self.assertGreater(work_once, 20*work)
+        self.assertGreater(work_once, 10*work)
         self.assertLess(steps, 200)
 
 
