@@ -104,13 +104,12 @@ TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
   }
 }
 
-TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
+void expectAsAccurateAsTheySay(unsigned begin, unsigned end, unsigned another) {
   int good = 0;
   int runs = 0;
-  std::vector<unsigned> seeds(24);
-  std::iota(seeds.begin(), seeds.end(), 0U);
-  seeds.push_back(137);  // when contact closes depends on what flowed while it stuck, slipped and opened
-  seeds.push_back(454);  // contact closes and opens at the peak of a distance
+  std::vector<unsigned> seeds(end - begin);
+  std::iota(seeds.begin(), seeds.end(), begin);
+  seeds.push_back(another);
   for (const unsigned seed : seeds) {
     const Case of = randomCase(seed);
     const Outcome outcome = outcomeOf(of, 500, of.plan);
@@ -122,8 +121,18 @@ TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
     EXPECT_LE(outcome.friction, allowed) << of.name << ", seed " << seed;
   }
   std::cout << good << " of " << runs << " within " << allowed << " tolerances\n";
-  EXPECT_GE(runs, 22);
+  EXPECT_GE(runs, static_cast<int>(seeds.size()) - 2);
   EXPECT_GE(good, 0.95 * runs);
+}
+
+// Two tests, of as much work. 137: when contact closes depends on what flowed while it stuck, slipped and
+// opened. 454: contact closes and opens at the peak of a distance.
+TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
+  expectAsAccurateAsTheySay(0, 8, 137);
+}
+
+TEST(TimeErrors, moreRandomRunsAreAsAccurateAsTheySay) {
+  expectAsAccurateAsTheySay(8, 24, 454);
 }
 
 }  // namespace mortier::time_errors_test
