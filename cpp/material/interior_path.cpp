@@ -134,7 +134,7 @@ class ConePath final : public InteriorPath {
       const Array3d r = d.r + ownChange;
       d.y0 = (d.first + 2 * y0 * dot(x, r / diagonal)) / d.z;
       d.x = (r - flow_ * x * d.y0) / diagonal;
-      // Where the point flows x . dx is nothing but rounding of dx.
+      // Where the point flows x . dx is rounding of dx.
       d.xx = y0 > slack ? (slack * d.y0 - d.first) / (2 * y0) : dot(x, d.x);
       largest = std::min(largest, firstRoot(slack, -d.xx, -dot(d.x, d.x)));
       if (d.y0 < 0) largest = std::min(largest, -y0 / d.y0);

@@ -127,7 +127,7 @@ Vector ProximalContact::solve(const Vector& h, Vector& f) {
 
 namespace {
 
-/// A pivot below this part of what it was before elimination is nothing but rounding.
+/// A pivot below this fraction of its value before elimination is rounding.
 constexpr double singular = 1e-12;
 
 /// Sets smaller than this are factorised anew: updates would cost as much.
