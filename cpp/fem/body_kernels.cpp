@@ -124,7 +124,7 @@ void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& st
       sums[k] = DoubleDouble::product(patches_->uniform(patch, k), {u.high[first], u.low[first]});
     for (size_t a = 1; a < nodes.size(); ++a)
       for (const int c : {0, 1}) {
-        const int dof = 2 * nodes.first[a] + c;
+        const int dof = 2 * nodes[a] + c;
         DoubleDouble change = DoubleDouble::sum(u.high[dof], -u.high[first + c]);
         change.low += u.low[dof] - u.low[first + c];
         for (int k = 0; k < terms; ++k)
@@ -233,7 +233,7 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       const double* row = patches_->row(patch, k);
       sums[k] = patches_->uniform(patch, k) * d[first];
       for (size_t a = 1; a < nodes.size(); ++a)
-        for (const int c : {0, 1}) sums[k] += row[2 * a + c] * (d[2 * nodes.first[a] + c] - d[first + c]);
+        for (const int c : {0, 1}) sums[k] += row[2 * a + c] * (d[2 * nodes[a] + c] - d[first + c]);
     }
   };
   OfPatches<double, decltype(find)> ofPatches(find);

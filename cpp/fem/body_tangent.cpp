@@ -125,7 +125,7 @@ void Body::addPatches(const TangentModuli& moduli, std::vector<double>& values, 
         for (size_t i = 0; i < size; ++i)
           R[k * size + i] += inner(std::max(k, l), std::min(k, l)) * m[l * size + i];
     for (size_t a = 0; a < nodes.size() && !frameOf_.empty(); ++a)
-      if (const int frame = frameOf_[nodes.first[a]]; frame >= 0)
+      if (const int frame = frameOf_[nodes[a]]; frame >= 0)
         for (int k = 0; k < 3 * terms; ++k) {
           Eigen::Map<Point> vector(m + k * size + 2 * a);
           vector = (frames_[frame] * vector).eval();

@@ -69,19 +69,17 @@ void TangentAssembly::buildPattern(const TriangleData& triangles) {
   // The neighbours of each node by counting sort of the triangles' couplings, then sorted and made unique one
   // node at a time. Equations ascend with nodes; those of nodes without a triangle here may be beyond.
   const auto nodes = static_cast<int>(triangles.equations.size() / 2);
-  const int n = triangles.nodes.perTriangle();
-  const auto forEachCouplingOf = [&](const int* begin, const int* end, auto visit) {
-    for (const int* j = begin; j != end; ++j)
-      for (const int* i = begin; i != end; ++i)
-        if (*i >= *j || !pattern_.symmetric) visit(*i, *j);
+  const size_t n = triangles.nodes.perTriangle();
+  const auto forEachCouplingOf = [&](std::span<const int> of, auto visit) {
+    for (const int j : of)
+      for (const int i : of)
+        if (i >= j || !pattern_.symmetric) visit(i, j);
   };
   const auto forEachCoupling = [&](auto visit) {
-    for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p) {
-      const auto patch = triangles.patches->nodes(p);
-      forEachCouplingOf(patch.begin(), patch.end(), visit);
-    }
+    for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p)
+      forEachCouplingOf(triangles.patches->nodes(p), visit);
     for (size_t t = 0; triangles.patches == nullptr && t < triangles.count(); ++t)
-      forEachCouplingOf(triangles.nodes.of(t), triangles.nodes.of(t) + n, visit);
+      forEachCouplingOf({triangles.nodes.of(t), n}, visit);
   };
   std::vector<int> start(nodes + 1, 0);
   forEachCoupling([&](int, int of) { ++start[of + 1]; });
@@ -115,10 +113,10 @@ int TangentAssembly::entry(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
 }
 
-void TangentAssembly::addEntries(const TriangleData& triangles, const int* nodes, size_t count, bool lower,
+void TangentAssembly::addEntries(const TriangleData& triangles, std::span<const int> nodes, bool lower,
                                  std::vector<int>& entries) const {
-  for (size_t j = 0; j < 2 * count; ++j)
-    for (size_t i = lower ? j : 0; i < 2 * count; ++i) {
+  for (size_t j = 0; j < 2 * nodes.size(); ++j)
+    for (size_t i = lower ? j : 0; i < 2 * nodes.size(); ++i) {
       const int column = triangles.equations[2 * nodes[j / 2] + j % 2];
       const int row = triangles.equations[2 * nodes[i / 2] + i % 2];
       const bool none = column < 0 || row < 0 || (row < column && pattern_.symmetric);
@@ -149,10 +147,8 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
                                         [](int value, const Part& part) { return value < part.firstColumn; });
     return static_cast<int>(after - parts_.begin()) - 1;
   };
-  for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p) {
-    const auto nodes = triangles.patches->nodes(p);
-    addEntries(triangles, nodes.begin(), nodes.size(), pattern_.symmetric, entriesOfPatches_);
-  }
+  for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p)
+    addEntries(triangles, triangles.patches->nodes(p), pattern_.symmetric, entriesOfPatches_);
   const int n = triangles.nodes.perTriangle();
   blocks_.resize(triangles.count() * n * n);
   std::vector<int> home(n);
@@ -173,7 +169,7 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
     }
     if (!plain) {
       others_.push_back({static_cast<int>(t), {}});
-      addEntries(triangles, nodes, n, false, others_.back().entries);
+      addEntries(triangles, {nodes, static_cast<size_t>(n)}, false, others_.back().entries);
       continue;
     }
     std::sort(home.begin(), home.end());

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -37,16 +38,11 @@ class VolumePatches {
 
   [[nodiscard]] int count() const { return static_cast<int>(nodesFrom_.size()) - 1; }
   [[nodiscard]] const std::vector<int>& patchOf() const { return patchOf_; }
-  struct Range {
-    const int* first;
-    const int* last;
-    [[nodiscard]] const int* begin() const { return first; }
-    [[nodiscard]] const int* end() const { return last; }
-    [[nodiscard]] size_t size() const { return last - first; }
-  };
-  [[nodiscard]] Range triangles(int patch) const { return range(triangles_, trianglesFrom_, patch); }
+  [[nodiscard]] std::span<const int> triangles(int patch) const {
+    return part(triangles_, trianglesFrom_, patch);
+  }
   /// Ascending.
-  [[nodiscard]] Range nodes(int patch) const { return range(nodes_, nodesFrom_, patch); }
+  [[nodiscard]] std::span<const int> nodes(int patch) const { return part(nodes_, nodesFrom_, patch); }
 
   /// Of each node of a triangle its place in nodes() of the patch.
   [[nodiscard]] const int* local(int triangle) const {
@@ -70,7 +66,7 @@ class VolumePatches {
   [[nodiscard]] Vector averaged(const Vector& theta, const std::vector<double>& weights) const;
 
  private:
-  static Range range(const std::vector<int>& all, const std::vector<int>& from, int patch) {
+  static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& from, int patch) {
     return {all.data() + from[patch], all.data() + from[patch + 1]};
   }
   void findPatches(const ElementNodes& nodes);
@@ -158,7 +154,7 @@ class TangentAssembly {
   void cutIntoParts(const std::vector<int>& equations);
   void placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf);
   /// Appends the entries of the matrix of some nodes, ascending where only its `lower` triangle is asked for.
-  void addEntries(const TriangleData& triangles, const int* nodes, size_t count, bool lower,
+  void addEntries(const TriangleData& triangles, std::span<const int> nodes, bool lower,
                   std::vector<int>& entries) const;
   template <class Element, bool aboutAxis, bool averaged>
   void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,

@@ -146,7 +146,7 @@ void VolumePatches::findPatches(const ElementNodes& nodes) {
   }
   local_.reserve(nodes.triangles.size());
   for (size_t t = 0; t < patchOf_.size(); ++t) {
-    const Range own = this->nodes(patchOf_[t]);
+    const std::span<const int> own = this->nodes(patchOf_[t]);
     for (int a = 0; a < ofTriangle_; ++a)
       local_.push_back(
           static_cast<int>(std::lower_bound(own.begin(), own.end(), nodes.of(t)[a]) - own.begin()));
