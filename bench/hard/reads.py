@@ -76,6 +76,14 @@ def off_cone(run):
     return float(np.abs(p[inside] / (unit * np.arccosh(a / r[inside])) - 1).max())
 
 
+def off_fit(shaft, hub):
+    """The largest deviation of a nodal pressure of shrink fits from Lame's; Young's moduli."""
+    def motion(young, inner, outer, at):  # of a ring by a pressure of 1 at one side, plane strain
+        return 1.3 / young * at * (0.4 * at**2 + (inner * outer / at)**2) / (outer**2 - inner**2)
+    exact = 0.001 / (motion(shaft, 0.5, 1, 1) + motion(hub, 1, 2, 1))
+    return lambda *runs: float(max(np.abs(pressures(run)[1] / exact - 1).max() for run in runs))
+
+
 def off_stress(*exact):
     """The largest deviation of a stress (s11, s22, s12), over the largest exact one."""
     def read(run):

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from known import Row, located
 from reads import (curved_motion, curved_pressure, dragged, growth, half_width, inner_motion, iterations,
-                   number, off_cone, off_hertz, off_punch, off_ring, off_stress, off_tube, order, peak,
-                   quantity, radius_of_contact, shell_motion, shell_pressure, total, unloading)
+                   number, off_cone, off_fit, off_hertz, off_punch, off_ring, off_stress, off_tube, order,
+                   peak, quantity, radius_of_contact, shell_motion, shell_pressure, total, unloading)
 
 
 def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, **more):
@@ -125,6 +125,21 @@ def punch_rows():
               published=True)
 
 
+def fit_rows():
+    pairs = ((48, 96), (96, 48), (24, 96), (96, 24), (64, 67))
+    for shaft, hub in ((1000, 1000), (1e6, 1000), (1000, 1e6)):
+        for degree in (1, 2):
+            settings = tuple(
+                (f"body.shaft.material.young={shaft!r}", f"body.hub.material.young={hub!r}",
+                 f"body.shaft.mesh.cells=[{inner}, {inner // 4}]",
+                 f"body.hub.mesh.cells=[{outer}, {outer // 4}]", f"contact.swap={swap}", f"degree={degree}")
+                for inner, outer in pairs for swap in ("false", "true"))
+            yield Row("Shrink fit", "Lame",
+                      f"nodal pressures, cells 2:1 to 1:4, either side, E {shaft / 1000:g}:{hub / 1000:g}, "
+                      f"degree {degree}", "shrink.toml", settings, off_fit(shaft, hub), within=0.02,
+                      test="within" if shaft > hub and degree == 1 else "")
+
+
 def hertz_rows():
     case = ("NAFEMS R0094, benchmark 1", "Hertz; with friction Konter 2006 (Abaqus, Marc)")
     for degree in (1, 2):
@@ -233,4 +248,4 @@ def other_rows():
 
 ROWS = located(Path(__file__).parent, [
     *disc_rows(), *prandtl_rows(), *circular_rows(), *ring_rows(), *end_rows(), *plank_rows(), *punch_rows(),
-    *hertz_rows(), *order_rows(), *shell_rows(), *patch_rows(), *volume_rows(), *other_rows()])
+    *fit_rows(), *hertz_rows(), *order_rows(), *shell_rows(), *patch_rows(), *volume_rows(), *other_rows()])

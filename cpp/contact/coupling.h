@@ -58,9 +58,9 @@ namespace mortier {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-inline Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns,
-                                             const Triplets& entries) {
-  Eigen::SparseMatrix<double> matrix(rows, columns);
+template <class Sparse = Eigen::SparseMatrix<double>>
+Sparse assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Sparse matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }

@@ -91,21 +91,22 @@ double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
 namespace {
 
 /// Columns 2 node + component of a line to dofs of its mesh.
-void scatter(const ConstraintRows& values, const ElementLine& line, const std::vector<int>& rowOf,
-             Triplets& entries) {
+void scatter(const Eigen::SparseMatrix<double>& values, const ElementLine& line,
+             const std::vector<int>& rowOf, Triplets& entries) {
   for (int j = 0; j < values.outerSize(); ++j)
-    for (ConstraintRows::InnerIterator entry(values, j); entry; ++entry)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(values, j); entry; ++entry)
       entries.emplace_back(rowOf[entry.row()], 2 * line.number(j / 2) + j % 2, entry.value());
 }
 
 /// The same with every direction turned by +90 degrees.
 ConstraintRows turned(const ConstraintRows& rows) {
   Triplets entries;
-  for (int j = 0; j < rows.outerSize(); ++j)
-    for (ConstraintRows::InnerIterator entry(rows, j); entry; ++entry)
-      entries.emplace_back(static_cast<int>(entry.row()), j % 2 == 0 ? j + 1 : j - 1,
-                           j % 2 == 0 ? entry.value() : -entry.value());
-  return assembled(rows.rows(), rows.cols(), entries);
+  for (int row = 0; row < rows.rows(); ++row)
+    for (ConstraintRows::InnerIterator entry(rows, row); entry; ++entry) {
+      const int dof = static_cast<int>(entry.col());
+      entries.emplace_back(row, dof ^ 1, dof % 2 == 0 ? entry.value() : -entry.value());
+    }
+  return assembled<ConstraintRows>(rows.rows(), rows.cols(), entries);
 }
 
 /// \throws InputError when the distances are not such as the user wants them.
@@ -265,8 +266,8 @@ void ContactInterface::Entries::add(const Coupling& coupling, const SmoothPart& 
 
 void ContactInterface::setRows(const Entries& entries) {
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
-  C1_ = assembled(n, C1_.cols(), entries.nonmortar);
-  C2_ = assembled(n, C2_.cols(), entries.mortar);
+  C1_ = assembled<ConstraintRows>(n, C1_.cols(), entries.nonmortar);
+  C2_ = assembled<ConstraintRows>(n, C2_.cols(), entries.mortar);
   mass_ = assembled(n, n, entries.mass);
   if (!friction_.any()) return;
   T1_ = turned(C1_);
@@ -275,13 +276,16 @@ void ContactInterface::setRows(const Entries& entries) {
 
 ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>, 2>& numbers,
                                               const std::array<int, 2>& count) const {
-  const auto columns = [](ConstraintRows& rows, int perNode, const std::vector<int>& number, int nodes) {
+  const auto columns = [](auto& rows, int perNode, const std::vector<int>& number, int nodes) {
+    using Rows = std::remove_reference_t<decltype(rows)>;
     Triplets entries;
     for (int j = 0; j < rows.outerSize(); ++j)
-      for (ConstraintRows::InnerIterator entry(rows, j); entry; ++entry)
-        entries.emplace_back(static_cast<int>(entry.row()), perNode * number[j / perNode] + j % perNode,
-                             entry.value());
-    rows = assembled(rows.rows(), static_cast<Eigen::Index>(perNode) * nodes, entries);
+      for (typename Rows::InnerIterator entry(rows, j); entry; ++entry) {
+        const int column = static_cast<int>(entry.col());
+        entries.emplace_back(static_cast<int>(entry.row()),
+                             perNode * number[column / perNode] + column % perNode, entry.value());
+      }
+    rows = assembled<Rows>(rows.rows(), static_cast<Eigen::Index>(perNode) * nodes, entries);
   };
   ContactInterface result = *this;
   const auto& [nonmortar, mortar] = numbers;

@@ -74,8 +74,9 @@ struct InterfaceOptions {
   bool gapMoves = false;       ///< whether that changes in time
 };
 
-/// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
-using ConstraintRows = Eigen::SparseMatrix<double>;
+/// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero. Stored by
+/// rows: a product costs its entries, not the dofs of a body.
+using ConstraintRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A mesh and the nodes of displacements on it.
 struct ContactMesh {

@@ -54,14 +54,15 @@ Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRo
                                            const std::vector<int>& nodes) {
   Triplets entries;
   Vector all = Vector::Zero(C1.rows());
-  const auto add = [&](Eigen::Index row, int node, double value) {
-    entries.emplace_back(static_cast<int>(row), node, value);
+  const auto add = [&](int row, int node, double value) {
+    entries.emplace_back(row, node, value);
     all[row] += value;
   };
-  for (int column = 0; column < C1.cols() && hasMeans(kind); ++column)
-    for (ConstraintRows::InnerIterator entry(C1, column); entry; ++entry)
-      add(entry.row(), column / 3, entry.value() * normals[entry.row()][column % 3]);
-  for (Eigen::Index row = 0; row < C1.rows() && !hasMeans(kind); ++row) add(row, nodes[row], 1);
+  for (int row = 0; row < C1.rows(); ++row) {
+    if (!hasMeans(kind)) add(row, nodes[row], 1);
+    for (ConstraintRows::InnerIterator entry(C1, row); entry && hasMeans(kind); ++entry)
+      add(row, static_cast<int>(entry.col()) / 3, entry.value() * normals[row][entry.col() % 3]);
+  }
   return all.cwiseInverse().asDiagonal() * assembled(C1.rows(), C1.cols() / 3, entries);
 }
 
@@ -260,8 +261,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   if (pair.coupling == CouplingKind::weighted) {
     const Vector inverse = result.lengths_.cwiseInverse();  // products copy an expression for each column
     result.mass_ = Eigen::SparseMatrix<double>(result.lengths_.asDiagonal());
-    result.C1_ = inverse.asDiagonal() * assembled(rows, columns1, D);
-    result.C2_ = inverse.asDiagonal() * assembled(rows, columns2, M);
+    result.C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
+    result.C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
     result.distance_ = inverse.cwiseProduct(distance);
   } else {
     result.mass_ = assembled(rows, rows, mass);
@@ -272,8 +273,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       for (int k = 0; k < 3 && !projects; ++k)
         add(seen, row, mortar.triangles[sights[row].triangle][k], -sights[row].mu[k], n);
     }
-    result.C1_ = assembled(rows, columns1, own);
-    result.C2_ = assembled(rows, columns2, seen);
+    result.C1_ = assembled<ConstraintRows>(rows, columns1, own);
+    result.C2_ = assembled<ConstraintRows>(rows, columns2, seen);
     result.distance_ = Eigen::Map<const Vector>(distances.data(), rows);
     if (projects) {
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(result.mass_);
@@ -288,7 +289,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
           for (Eigen::Index i = 0; i < rows; ++i)
             if (std::abs(column[i]) > nothing) all.emplace_back(i, j, column[i]);
         }
-        return assembled(rows, columns, all);
+        return assembled<ConstraintRows>(rows, columns, all);
       };
       result.C1_ += projected(columns1, D);
       result.C2_ = projected(columns2, M);

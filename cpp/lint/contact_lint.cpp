@@ -192,7 +192,9 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
         continue;
       int node = -1;
       const auto isNonmortar = [&](int v, int axis) {
-        return interface.C1().col(2 * v + axis).nonZeros() > 0;
+        for (int row = 0; row < interface.rows(); ++row)
+          if (interface.nonmortarNodes()[row] == v && interface.normals()[row][axis] != 0) return true;
+        return false;
       };
       if (c.point) {
         const int v = vertexAt(mesh, *c.point);

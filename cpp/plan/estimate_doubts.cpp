@@ -59,11 +59,12 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
 bool meshesMatch(const ContactInterface& interface) {
   std::vector<int> vertex(interface.rows(), -1);
   std::set<int> all;
-  for (int dof = 0; dof < interface.C2().outerSize(); ++dof)
-    for (ConstraintRows::InnerIterator entry(interface.C2(), dof); entry; ++entry) {
-      int& seen = vertex[entry.row()];
-      if (seen >= 0 && seen != dof / 2) return false;
-      seen = dof / 2;
+  for (int row = 0; row < interface.rows(); ++row)
+    for (ConstraintRows::InnerIterator entry(interface.C2(), row); entry; ++entry) {
+      const int node = static_cast<int>(entry.col()) / 2;
+      int& seen = vertex[row];
+      if (seen >= 0 && seen != node) return false;
+      seen = node;
       all.insert(seen);
     }
   // Those between the first and the last that are seen, in the order of the line, less ends that are held.

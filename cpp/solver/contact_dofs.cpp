@@ -23,22 +23,14 @@ void forEachEntry(const ContactInterface& interface, int body, const ConstraintR
                   const ConstraintRows& mortar, Visit visit) {
   const int dimension = interface.dimension();
   const auto visitAll = [&](const ConstraintRows& C) {
-    for (int node = 0; dimension * node < C.outerSize(); ++node) {
-      std::vector<ConstraintRows::InnerIterator> entries;
-      for (int c = 0; c < dimension; ++c) entries.emplace_back(C, dimension * node + c);
-      const auto nextRow = [&] {
-        Eigen::Index row = C.rows();
-        for (const auto& entry : entries)
-          if (entry) row = std::min(row, entry.row());
-        return row;
-      };
-      for (Eigen::Index row = nextRow(); row < C.rows(); row = nextRow()) {
+    for (int row = 0; row < C.rows(); ++row)
+      for (ConstraintRows::InnerIterator entry(C, row); entry;) {
+        const int node = static_cast<int>(entry.col()) / dimension;
         SpacePoint vector = SpacePoint::Zero();
-        for (int c = 0; c < dimension; ++c)
-          if (entries[c] && entries[c].row() == row) vector[c] = entries[c].value(), ++entries[c];
-        visit(static_cast<int>(row), node, vector);
+        for (; entry && entry.col() / dimension == node; ++entry)
+          vector[entry.col() % dimension] = entry.value();
+        visit(row, node, vector);
       }
-    }
   };
   if (interface.pair().nonmortar.body == body) visitAll(nonmortar);
   if (interface.pair().mortar.body == body) visitAll(mortar);
