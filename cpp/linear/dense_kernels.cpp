@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <experimental/simd>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,10 @@ extern "C" {
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
 void dlaswp_(const int* n, double* a, const int* lda, const int* first, const int* last, const int* ipiv,
              const int* step);
-int blas_thread_shutdown_() __attribute__((weak));  // of OpenBLAS, where it has threads
+// Of OpenBLAS, where it has threads, and kernels for many processors.
+int blas_thread_shutdown_() __attribute__((weak));
+void gotoblas_dynamic_init() __attribute__((weak));
+void gotoblas_dynamic_quit() __attribute__((weak));
 }
 
 namespace mortier::dense {
@@ -186,6 +191,22 @@ bool tiledLU(double* panel, int n, int pivots, int* interchange, const Tiles& ti
   return true;
 }
 
+/// OpenBLAS takes a processor that is newer than itself for one without AVX, and is half as fast. It reads the
+/// kind of kernels from the environment when it begins.
+void useVectorUnits() {
+#ifdef __x86_64__
+  constexpr const char* kernels = "OPENBLAS_CORETYPE";
+  if (gotoblas_dynamic_init == nullptr || gotoblas_dynamic_quit == nullptr ||
+      std::getenv(kernels) != nullptr || std::string_view(openblas_get_corename()) != "Prescott" ||
+      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    return;
+  setenv(kernels, "Haswell", 1);
+  gotoblas_dynamic_quit();
+  gotoblas_dynamic_init();
+  unsetenv(kernels);
+#endif
+}
+
 }  // namespace
 
 bool isLarge(int n, int pivots) {
@@ -193,12 +214,17 @@ bool isLarge(int n, int pivots) {
   return static_cast<double>(pivots) * n * n > least;
 }
 
-void useOneThread() {
+void setUpBlas() {
+  static const bool done = [] {
+    useVectorUnits();
+    return true;
+  }();
+  static_cast<void>(done);
   openblas_set_num_threads(1);
 }
 
 void endThreadsOfBlas() {
-  useOneThread();
+  setUpBlas();
   if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 

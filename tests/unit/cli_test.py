@@ -170,6 +170,8 @@ class Cli(OfTwoBlocks):
         self.assertGreater(summary["peak_memory_mib"], 1)
         for name in ("mortier", "Eigen", "CHOLMOD", "UMFPACK", "BLAS", "toml++", "muParser"):
             self.assertRegex(summary["versions"][name], r"\d+\.\d+")
+        if {"avx2", "fma"} <= set(Path("/proc/cpuinfo").read_text().split()):
+            self.assertNotRegex(summary["versions"]["BLAS"], r"\bPrescott\b")  # kernels without AVX
 
         self.assertEqual([name for name in self.names("result") if name.endswith(".vtu")],
                          [f"{body}_{step:06}.vtu" for body in ("lower", "upper") for step in (0, 2, 4)])
