@@ -258,7 +258,7 @@ GALLERY = [
     Entry("eccentric-punch", [Number("eccentricity over a at lift-off", lift_off, 0.5, 4e-2,
                                      "the edge node has a mean of the pressure beside it: 0.518, 0.508 with "
                                      "26, 52 cells")],
-          10, ((-3, 3), (-2.5, 1.2))),
+          10, ((-3, 3), (-2.5, 1.2)), balance=5e-12),  # the punch is 1000 times as stiff: its rounding
 ]
 
 

@@ -27,6 +27,28 @@ namespace {
 
 namespace stdx = std::experimental;
 
+/// OpenBLAS takes a processor that is newer than itself for one without AVX, and is half as fast: it gets the
+/// kernels for AVX2 where the processor has it. \returns whether it did
+bool useVectorUnits() {
+#ifdef __x86_64__
+  constexpr const char* kernels = "OPENBLAS_CORETYPE";
+  if (gotoblas_dynamic_init == nullptr || gotoblas_dynamic_quit == nullptr ||
+      std::getenv(kernels) != nullptr || std::string_view(openblas_get_corename()) != "Prescott" ||
+      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    return false;
+  setenv(kernels, "Haswell", 1);
+  gotoblas_dynamic_quit();
+  gotoblas_dynamic_init();
+  unsetenv(kernels);
+  return true;
+#else
+  return false;
+#endif
+}
+
+/// When the program or the module is loaded: BLAS may not be at work.
+[[maybe_unused]] const bool usesVectorUnits = useVectorUnits();
+
 /// Below this many pivots a call of BLAS costs more than the loops it saves.
 constexpr int smallPivots = 12;
 constexpr int smallRows = 96;
@@ -191,22 +213,6 @@ bool tiledLU(double* panel, int n, int pivots, int* interchange, const Tiles& ti
   return true;
 }
 
-/// OpenBLAS takes a processor that is newer than itself for one without AVX, and is half as fast. It reads the
-/// kind of kernels from the environment when it begins.
-void useVectorUnits() {
-#ifdef __x86_64__
-  constexpr const char* kernels = "OPENBLAS_CORETYPE";
-  if (gotoblas_dynamic_init == nullptr || gotoblas_dynamic_quit == nullptr ||
-      std::getenv(kernels) != nullptr || std::string_view(openblas_get_corename()) != "Prescott" ||
-      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
-    return;
-  setenv(kernels, "Haswell", 1);
-  gotoblas_dynamic_quit();
-  gotoblas_dynamic_init();
-  unsetenv(kernels);
-#endif
-}
-
 }  // namespace
 
 bool isLarge(int n, int pivots) {
@@ -214,17 +220,12 @@ bool isLarge(int n, int pivots) {
   return static_cast<double>(pivots) * n * n > least;
 }
 
-void setUpBlas() {
-  static const bool done = [] {
-    useVectorUnits();
-    return true;
-  }();
-  static_cast<void>(done);
+void useOneThread() {
   openblas_set_num_threads(1);
 }
 
 void endThreadsOfBlas() {
-  setUpBlas();
+  useOneThread();
   if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 

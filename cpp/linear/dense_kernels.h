@@ -23,9 +23,8 @@ bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>*
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange,
                Threads& threads);
 
-/// Lets BLAS use one thread (bodies, pieces of the factorisation and tiles of large fronts run in parallel), and
-/// the vector units of the processor.
-void setUpBlas();
+/// Lets BLAS use one thread: bodies, pieces of the factorisation and tiles of large fronts run in parallel.
+void useOneThread();
 
 /// And ends the threads that BLAS began when it was loaded, one per core: they wait busily for a while. For a
 /// program that nothing else in its process calls BLAS for.

@@ -335,19 +335,19 @@ class Multifrontal final : public CondensingSolver {
 
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept) {
-  dense::setUpBlas();
+  dense::useOneThread();
   return std::make_unique<Multifrontal<double>>(pattern, kept, false);
 }
 
 std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
-  dense::setUpBlas();
+  dense::useOneThread();
   if (!pattern.symmetric) throw std::logic_error("factors in single precision are of symmetric matrices");
   return std::make_unique<Multifrontal<float>>(pattern, kept, true);
 }
 
 std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
                                                               const std::vector<int>& kept) {
-  dense::setUpBlas();
+  dense::useOneThread();
   return std::make_unique<Multifrontal<double>>(pattern, kept, true);
 }
 

@@ -18,7 +18,7 @@ bool DenseFactor::factorise(Matrix&& matrix, bool symmetric) {
   leastPivot_ = factor_.rows() == 0 ? 1 : 0;
   if (factor_.rows() == 0) return true;
   const auto n = static_cast<int>(factor_.rows());
-  dense::setUpBlas();
+  dense::useOneThread();
   Threads& threads = Threads::none();
   if (symmetric) {
     const Vector before = factor_.diagonal();
