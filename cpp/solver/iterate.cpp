@@ -123,35 +123,17 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
   return result;
 }
 
-std::vector<Vector> slidingForces(const State& state0, const Iterate& solution) {
-  std::vector<Vector> forces = solution.frictionForce;
-  for (size_t k = 0; k < forces.size(); ++k)
-    for (Eigen::Index i = 0; i < forces[k].size(); ++i) {
-      const bool slides = solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0;
-      forces[k][i] = slides ? (state0.frictionForce[k][i] + forces[k][i]) / 2 : 0;
-    }
-  return forces;
-}
-
-std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution) {
-  const std::vector<Vector> slip = slips(model, solution);
-  std::vector<Vector> force = slidingForces(state0, solution);
-  std::vector<double> work;
-  for (size_t k = 0; k < slip.size(); ++k) {
-    // Forces of the beginning belong to other rows where these follow the bodies.
-    if (model.interfaces[k].follows() && force[k].size() > 0)
-      force[k] = (force[k].array() != 0).select(solution.frictionForce[k], 0);
-    work.push_back(force[k].cwiseProduct(slip[k]).cwiseMax(0).sum());
+std::vector<Vector> frictionWork(const State& state0, const Iterate& solution,
+                                 const std::vector<Vector>& slip0, const std::vector<Vector>& slip1) {
+  std::vector<Vector> work;
+  for (size_t k = 0; k < slip1.size(); ++k) {
+    work.emplace_back(Vector::Zero(slip1[k].size()));
+    for (Eigen::Index i = 0; i < slip1[k].size(); ++i)
+      if (solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0)
+        work[k][i] =
+            (state0.frictionForce[k][i] * slip0[k][i] + solution.frictionForce[k][i] * slip1[k][i]) / 2;
   }
   return work;
-}
-
-void addFrictionWork(const Model& model, const Iterate& solution, State& state) {
-  const std::vector<double> work = frictionWork(model, state, solution);
-  for (size_t k = 0; k < work.size(); ++k) {
-    state.frictionWorkOf[k] += work[k];
-    state.frictionWork += work[k];
-  }
 }
 
 std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& solution) {

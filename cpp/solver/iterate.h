@@ -98,12 +98,11 @@ double gapWork(const State& state0, const Iterate& solution);
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
-/// The mean of the friction forces at both ends of a step where nodes slip or contact opens in it, else 0.
-std::vector<Vector> slidingForces(const State& state0, const Iterate& solution);
-/// What they dissipate in the step, per interface [J/m].
-std::vector<double> frictionWork(const Model& model, const State& state0, const Iterate& solution);
-/// Adds it to what the state has.
-void addFrictionWork(const Model& model, const Iterate& solution, State& state);
+/// What friction does in a step where nodes slip or contact opens, per interface and node [J/m]: the mean of
+/// force times slip at its ends, which keeps the energy of elastic bodies.
+/// \param slip0, slip1  T du with the rows at the start and at the end
+std::vector<Vector> frictionWork(const State& state0, const Iterate& solution,
+                                 const std::vector<Vector>& slip0, const std::vector<Vector>& slip1);
 
 /// Whether any point of the state flows.
 bool flows(const Model& model, const State& state);

@@ -6,17 +6,33 @@
 
 namespace mortier {
 
+std::vector<double> StepTaker::dissipatedByFriction() const {
+  const std::vector<Vector> slip = slips(model_, solutions_.back());
+  std::vector<Vector> slip0 = slip;
+  for (size_t k = 0; k < rowsBefore_.size(); ++k) {
+    if (slip[k].size() == 0) continue;
+    const ContactPair& pair = model_.interfaces[k].pair();
+    const std::vector<BodyIterate>& bodies = solutions_.back().bodies;
+    slip0[k] = rowsBefore_[k][0] * bodies[pair.nonmortar.body].increment.value() +
+               rowsBefore_[k][1] * bodies[pair.mortar.body].increment.value();
+  }
+  std::vector<double> result;
+  // Forces that turn round in a step give a mean that may be negative.
+  for (const Vector& work : frictionWork(state_, solutions_.back(), slip0, slip))
+    result.push_back(work.cwiseMax(0).sum());
+  return result;
+}
+
 SlipAndWork StepTaker::slip() const {
-  const std::vector<double> work = frictionWork(model_, state_, solutions_.back());
+  const std::vector<double> work = dissipatedByFriction();
   std::vector<Matrix> flow = ratesOf(solutions_.back(), 1);
   if (!shift_.empty()) addTo(flow, 1, shift_);
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
 }
 
 double StepTaker::workAlong(const std::vector<Vector>& slip) const {
-  const std::vector<Vector> force = slidingForces(state_, solutions_.back());
   double work = 0;
-  for (size_t k = 0; k < slip.size(); ++k) work += force[k].dot(slip[k]);
+  for (const Vector& each : frictionWork(state_, solutions_.back(), slip, slip)) work += each.sum();
   return work;
 }
 

@@ -23,6 +23,13 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
       system_(model, options),
       countsWork_(countsWork) {
   if (memory.run.steps > 0) system_.resume(memory.solver);
+  showState();
+}
+
+void StepTaker::keepRows() {
+  rowsBefore_.clear();
+  for (const ContactInterface& interface : model_.interfaces)
+    if (follows()) rowsBefore_.push_back({interface.T1(), interface.T2()});
 }
 
 StepOutcome StepTaker::solveStage(StepData& data, Iterate& iterate, Effort effort) {
@@ -257,7 +264,12 @@ void StepTaker::commit() {
   if (std::exchange(showsState_, false)) gap0_ = followTo(solutions_.back(), false);
   if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, gap0_, solutions_.back());
-  addFrictionWork(model_, solutions_.back(), state_);
+  const std::vector<double> work = dissipatedByFriction();
+  for (size_t k = 0; k < work.size(); ++k) {
+    state_.frictionWorkOf[k] += work[k];
+    state_.frictionWork += work[k];
+  }
+  keepRows();
   state_.gapWork += gapWork(state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;

@@ -73,6 +73,7 @@ class StepTaker {
   void showState() {
     if (!follows()) return;
     follow(model_, displacementsOf(state_));
+    keepRows();
     showsState_ = true;
   }
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
@@ -111,6 +112,9 @@ class StepTaker {
   StepOutcome solveStage(StepData& data, Iterate& iterate, Effort effort);
   StepOutcome repeatOnMovedBodies(StepData& data, Iterate& iterate, Effort effort);
   std::vector<Vector> followTo(const Iterate& iterate, bool keepRows);
+  /// What friction dissipates in the last attempt, per interface [J/m].
+  [[nodiscard]] std::vector<double> dissipatedByFriction() const;
+  void keepRows();
   Iterate guess(size_t stage, double k);
   void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.
@@ -144,6 +148,7 @@ class StepTaker {
   MarchMemory& memory_;
   Scheme scheme_;
   StepSystem system_;
+  std::vector<std::array<ConstraintRows, 2>> rowsBefore_;  ///< T of the state where rows follow the bodies
   bool showsState_ = false;  ///< whether rows that follow are those of the state, not of the attempt
   bool countsWork_;
   // Of the last attempt:

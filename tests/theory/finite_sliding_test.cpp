@@ -107,15 +107,15 @@ Model dragged() {
   return following(std::move(upper), std::move(lower), CouplingKind::weighted, upperBody, 0.4, 0.5);
 }
 
-// In full slip the end does not depend on the way; what friction dissipates on it is of first order.
-TEST(FiniteSliding, isOfFirstOrderInTheStep) {
+// In full slip the end does not depend on the way; what friction dissipates on it is of second order.
+TEST(FiniteSliding, isOfSecondOrderInTheStep) {
   std::vector<Result> results;
-  for (const int steps : {16, 32, 64}) {
+  for (const int steps : {32, 64, 128}) {
     results.push_back(run(dragged(), 1, steps));
     ASSERT_EQ(results.back().report.status, Status::converged) << results.back().report.reason;
   }
   const auto work = [&](int i) { return results[i].state.frictionWork; };
-  EXPECT_GE((work(1) - work(0)) / (work(2) - work(1)), 1.9);
+  EXPECT_GE((work(1) - work(0)) / (work(2) - work(1)), 3);
   EXPECT_LE(std::abs(work(2) - work(1)), 2e-4 * work(2));
   const auto& end = results[1].state.bodies[upperBody].displacement;
   EXPECT_LE((results[0].state.bodies[upperBody].displacement - end).norm(), 1e-9 * end.norm());
