@@ -2,6 +2,7 @@
 
 MORTIER_LONG_STUDY=1: 200 runs instead of 24.
 """
+import json
 import os
 import signal
 import socket
@@ -36,9 +37,14 @@ def free_port():
 class Cluster(StudyTest):
     def setUp(self):
         super().setUp()
-        self.address = f"tcp://127.0.0.1:{free_port()}"
-        self.scheduler = self.start("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port",
-                                    self.address.rpartition(":")[2])
+        # On a busy machine a scheduler takes longer to begin than a study waits for its answer.
+        place = self.folder / "scheduler.json"
+        self.scheduler = self.start("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0",
+                                    "--scheduler-file", str(place))
+        while not (text := place.read_text() if place.exists() else "").endswith("}"):
+            self.assertIsNone(self.scheduler.poll())
+            time.sleep(0.05)
+        self.address = json.loads(text)["address"]
         self.workers = 0
         self.log = self.folder / "log"
         self.program = self.folder / "counting"
