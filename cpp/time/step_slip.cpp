@@ -1,4 +1,5 @@
 // What slips in a step, and what friction dissipates.
+#include <algorithm>
 #include <numeric>
 
 #include "time/error_norms.h"
@@ -17,9 +18,9 @@ std::vector<double> StepTaker::dissipatedByFriction() const {
                rowsBefore_[k][1] * bodies[pair.mortar.body].increment.value();
   }
   std::vector<double> result;
-  // Forces that turn round in a step give a mean that may be negative.
+  // The sum keeps the energy, single nodes may be negative; so may all where contact opens in a long step.
   for (const Vector& work : frictionWork(state_, solutions_.back(), slip0, slip))
-    result.push_back(work.cwiseMax(0).sum());
+    result.push_back(std::max(work.sum(), 0.0));
   return result;
 }
 

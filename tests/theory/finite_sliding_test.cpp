@@ -1,11 +1,14 @@
-// Contact that follows the bodies: the patch test moved far, full slip along a table, order in the step.
+// Contact that follows the bodies: the patch test moved far, full slip along a table, order in the step,
+// energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "material/elasticity.h"
 #include "theory/scenes.h"
 #include "time/measure.h"
+#include "time/quantity.h"
 
 namespace mortier::finite_sliding_test {
 
@@ -93,15 +96,21 @@ TEST(FiniteSliding, forceOfFullSlipIsThatOfCoulomb) {
       }
 }
 
+double across(double t) {
+  return -0.02 * std::min(4 * t, 1.0);
+}
+double along(double t) {
+  const double s = std::max(t - 0.25, 0.0) / 0.75;
+  return 0.8 * s * s;
+}
+
 /// A soft block dragged faster and faster over a softer table than the one above, with friction.
 Model dragged() {
-  const auto across = [](double, double, double t) { return -0.02 * std::min(4 * t, 1.0); };
-  const auto along = [](double, double, double t) {
-    const double s = std::max(t - 0.25, 0.0) / 0.75;
-    return 0.8 * s * s;
+  const auto at = [](double (*path)(double)) {
+    return Function([path](double, double, double t) { return path(t); });
   };
   Body upper("upper", crissCrossMesh({.lower = {0, 0}, .upper = {1, 1}, .cellsX = 5, .cellsY = 5}),
-             elasticMaterial({100, 0.3}), {{{top, 0, along}, {top, 1, across}}, {}, {}});
+             elasticMaterial({100, 0.3}), {{{top, 0, at(along)}, {top, 1, at(across)}}, {}, {}});
   Body lower("lower", crissCrossMesh({.lower = {-1, -1}, .upper = {3, 0}, .cellsX = 13, .cellsY = 3}),
              elasticMaterial({200, 0.3}), {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
   return following(std::move(upper), std::move(lower), CouplingKind::weighted, upperBody, 0.4, 0.5);
@@ -119,6 +128,60 @@ TEST(FiniteSliding, isOfSecondOrderInTheStep) {
   EXPECT_LE(std::abs(work(2) - work(1)), 2e-4 * work(2));
   const auto& end = results[1].state.bodies[upperBody].displacement;
   EXPECT_LE((results[0].state.bodies[upperBody].displacement - end).norm(), 1e-9 * end.norm());
+}
+
+// The plate's work is the change of the elastic energy, friction's and the pressure's, each with its own rows
+// at both ends of a step; left over is what friction does as the rows of nodes that stick turn.
+TEST(FiniteSliding, energyIsKept) {
+  const Model model = dragged();
+  const ContactInterface& interface = model.interfaces[0];
+  const auto energyOf = [&](const State& state) {
+    double sum = 0;
+    for (size_t b = 0; b < state.bodies.size(); ++b) {
+      Matrix strain;
+      model.bodies[b].material().elasticStrain(state.bodies[b].stress, strain);
+      for (int i = 0; i < model.bodies[b].points(); ++i)
+        sum += model.bodies[b].weights()[i] / 2 * state.bodies[b].stress.col(i).dot(strain.col(i));
+    }
+    return sum;
+  };
+  std::vector<Quantity> reactions(2);
+  for (Quantity& reaction : reactions) {
+    reaction.kind = Quantity::Kind::reaction;
+    reaction.body = upperBody;
+    reaction.label = top;
+  }
+  reactions[0].component = Quantity::Component::x;
+  reactions[1].component = Quantity::Component::y;
+  State state = initialState(model);
+  State before = state;
+  std::vector<double> forceBefore(2, 0);
+  double worst = 0;
+  double largest = 0;
+  const RunReport report =
+      march(model, state, {.end = 1, .steps = 20}, {}, [&](const State& now, const StepReport& step) {
+        if (step.step == 0) return;
+        const std::vector<double> force = evaluate(reactions, model, now);
+        const auto pressureWork = [&](const State& at) {
+          follow(model, {at.bodies[0].displacement, at.bodies[1].displacement});
+          const Vector opening =
+              interface.jump(now.bodies[upperBody].displacement - before.bodies[upperBody].displacement,
+                             now.bodies[lowerBody].displacement - before.bodies[lowerBody].displacement);
+          return at.contactForce[0].dot(opening) / 2;
+        };
+        const double left = (forceBefore[0] + force[0]) / 2 * (along(now.time) - along(before.time)) +
+                            (forceBefore[1] + force[1]) / 2 * (across(now.time) - across(before.time)) -
+                            (energyOf(now) - energyOf(before)) - (now.frictionWork - before.frictionWork) -
+                            pressureWork(before) - pressureWork(now);
+        largest = std::max(largest, energyOf(now));
+        worst = std::max(worst, std::abs(left));
+        before = now;
+        forceBefore = force;
+      });
+  ASSERT_EQ(report.status, Status::converged) << report.reason;
+  std::cout << "balance off by " << worst / largest << " of the largest energy\n";
+  EXPECT_LE(worst, 1e-6 * largest);
+  EXPECT_GT(state.frictionWork, 0.01 * largest);
 }
 
 // Rows of a state are those of its displacements alone: a run resumes from state and memory to the last bit.
