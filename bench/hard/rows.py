@@ -120,8 +120,8 @@ def punch_rows():
                                       ("block", "true", 13, 0.02)):
         settings = (f"contact.swap={swap}", *(("body.block.mesh.cells=[192, 192]",) if cells > 13 else ()))
         yield Row("Cone, rigid", "Sneddon 1965; with all rows from -22 to 45 for 12",
-                  f"nodal pressures from 0.1 a to 0.85 a, {cells} block cells on a, {side} nonmortar", "cone.toml",
-                  settings, off_cone, within=within, test="within" if within == 0.1 else "")
+                  f"nodal pressures from 0.1 a to 0.85 a, {cells} block cells on a, {side} nonmortar",
+                  "cone.toml", settings, off_cone, within=within, test="within" if within == 0.1 else "")
     yield Row("Flat punch", "F/(pi sqrt(a^2 - x^2)); solids4foam", "nodal pressures up to 0.9 a",
               "flat-punch.toml", (), off_punch, within=0.03, peers=("freefem",), test="within",
               published=True)

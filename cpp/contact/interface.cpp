@@ -132,6 +132,11 @@ void requireAllowed(const Vector& distance, InitialGap initial, double shorter, 
 
 }  // namespace
 
+void refuseWithoutRows(const std::string& sides) {
+  throw InputError(sides + " overlap at no nonmortar node, expected one across the mortar side: a finer " +
+                   "nonmortar side, or the sides exchanged");
+}
+
 ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,
                                    const TriangleMesh& mortarMesh, const InterfaceOptions& options)
     : ContactInterface(pair, ContactMesh{nonmortarMesh, elementNodes(nonmortarMesh, 1)},
@@ -142,9 +147,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
     : pair_(pair), friction_(options.friction), axisymmetric_(options.axisymmetric) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
-  const std::string names = nonmortarMesh.mesh.name + " " +
-                            labelText(nonmortarMesh.mesh, pair.nonmortar.label) + " and " +
-                            mortarMesh.mesh.name + " " + labelText(mortarMesh.mesh, pair.mortar.label);
+  const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
   const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
@@ -167,8 +170,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   } else {
     assemble(parts, facing, nonmortarMesh, mortarMesh, options);
   }
-  if (rows() == 0)
-    throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
+  if (rows() == 0) refuseWithoutRows(names);
   if (!follows()) overlap_ /= shorter;
   for (const BoundaryLine* each : {&nonmortar, &mortar})
     polygonTurn_ = std::max(polygonTurn_, turnOfPolygon(each->points, each->closed, sharpTurn));

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "contact/interface.h"
+#include "mesh/triangle_mesh.h"
 
 namespace mortier {
 
@@ -17,6 +19,16 @@ struct ContactInterface::Entries {
   void add(const Coupling& coupling, const SmoothPart& part, const FacingLine& facing,
            const std::vector<int>& rowOf);
 };
+
+/// Both sides in a message, `a.mesh label 1 "bottom" and b.mesh label 3 "top"`.
+template <class Mesh>
+std::string sidesText(const ContactPair& pair, const Mesh& nonmortar, const Mesh& mortar) {
+  return nonmortar.name + " " + labelText(nonmortar, pair.nonmortar.label) + " and " + mortar.name + " " +
+         labelText(mortar, pair.mortar.label);
+}
+
+/// Of sides that face each other in part. \throws InputError
+[[noreturn]] void refuseWithoutRows(const std::string& sides);
 
 /// A closed nonmortar line that faces an open one begins where it is farthest off.
 std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar);

@@ -74,7 +74,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   const ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label,
                                  options.nonmortarHeld);
   const ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label, options.mortarHeld);
-  const std::string names = nonmortarMesh.mesh.name + " and " + mortarMesh.mesh.name;
+  const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
   if (pair.coupling == CouplingKind::coarsened ||
       (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1))
     throw InputError(names + ": in space variant = \"weighted\" is known, and for linear displacements " +
@@ -150,8 +150,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   }
   shareFunctions(vertices);
   const auto rows = static_cast<Eigen::Index>(result.nonmortarNodes_.size());
-  if (rows == 0)
-    throw InputError(names + " overlap at no nonmortar vertex, expected bodies that face each other");
+  if (facing.empty()) throw InputError(names + " do not face each other");
+  if (rows == 0) refuseWithoutRows(names);
 
   // Integrals.
   const Eigen::Index columns1 = 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count());

@@ -81,7 +81,7 @@ const std::vector<FaultKind>& faultKinds() {
        "add a [[contact]], or nothing keeps them from penetrating each other"},
       {"body-alone", warning, "a body is in no contact", "add a [[contact]], or take the body out"},
       {"unheld-body", unheld, "nothing holds a body",
-       "hold the motion with ux or uy on a label or at points, or with a contact"},
+       "hold the motion with a component of u on a label or at points, or with a contact"},
       // Contact.
       {"contact-line", error, "a side of a contact is not one line on which contact can be made",
        "give each piece its own label and contact"},
@@ -134,13 +134,12 @@ const std::vector<FaultKind>& faultKinds() {
       // Materials.
       {"poisson-limit", warning,
        "Poisson's ratio is next to 0.5 in plane strain, around an axis or on linear tetrahedra",
-       "pressures are wrong and linear elements lock: leave out volume = \"pointwise\" and accuracy.bound, "
-       "in "
-       "space take degree = 2, or take poisson <= 0.49"},
+       "pressures are wrong and linear elements lock: in the plane leave out volume = \"pointwise\" and "
+       "accuracy.bound, in space take degree = 2; or take poisson <= 0.49"},
       {"flow-locks", warning,
        "flow in plane strain or around an axis on linear triangles that lock, or on linear tetrahedra",
-       "leave out volume = \"pointwise\" and accuracy.bound; in plane strain cells cut by both diagonals do "
-       "not lock; in space take degree = 2"},
+       "in the plane leave out volume = \"pointwise\" and accuracy.bound, or in plane strain cut cells "
+       "by both diagonals; in space take degree = 2"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},

@@ -105,8 +105,9 @@ TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside = "plane = \"ax
 
 // Labels in messages.
 
-/// `label 3 "top"`, or `label 3` where the mesh has no name for it.
-inline std::string labelText(const TriangleMesh& mesh, int label) {
+/// `label 3 "top"`, or `label 3` where the mesh (of triangles or tetrahedra) has no name for it.
+template <class Mesh>
+std::string labelText(const Mesh& mesh, int label) {
   for (const auto& [name, number] : mesh.labelNames)
     if (number == label) return "label " + std::to_string(label) + " \"" + name + "\"";
   return "label " + std::to_string(label);

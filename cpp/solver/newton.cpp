@@ -70,11 +70,12 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     if (balance > roundedInRings && outcome.iterations < limits.iterations + corrections &&
         std::exchange(polish, false))
       continue;
-    if (balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
+    const bool closed = certificate.gapOnActive <= std::max(residualTolerance, limits.tolerance);
+    if (closed && balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
       outcome.converge(certificate);
       return outcome;
     }
-    // The law holds and equilibrium does not, again and again: the linear solves are to blame.
+    // The law holds, equilibrium or contact do not, again and again: the linear solves are to blame.
     if (++outOfBalance == patience) system.useNextEngine();
   }
 }

@@ -39,6 +39,8 @@ namespace mortier {
 
 /// Force balance asked of a converged step; far above rounding, far below what any result shows.
 constexpr double balanceTolerance = 1e-11;
+/// Every residual of a solution is below that (Certificate); most are 1e-10 and less.
+constexpr double residualTolerance = 1e-8;
 
 /// What bodies of a linear problem respond to.
 struct Disturbance {

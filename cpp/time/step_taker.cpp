@@ -101,10 +101,8 @@ std::string beyond(const Certificate& found, double most) {
 /// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion. In a
 /// jump the next step may hold it.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
-  constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
-  if (const std::string residual =
-          outcome.converged() ? beyond(outcome.certificate, std::max(rounding, system_.options().tolerance))
-                              : "";
+  const double most = std::max(residualTolerance, system_.options().tolerance);
+  if (const std::string residual = outcome.converged() ? beyond(outcome.certificate, most) : "";
       model_.any(!residual.empty()))
     outcome.fail(Reason::unconverged, residual);
   const bool asked = outcome.converged() && t1_ > state_.time;

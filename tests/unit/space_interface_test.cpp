@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "base/error.h"
 #include "contact/interface.h"
 #include "mesh/shape.h"
 
@@ -32,6 +33,29 @@ double timeOf(int layers) {
 TEST(SpaceInterface, doesNotCostWhatIsBelowTheSurface) {
   // Where each dof costs as much as there are rows it is more than four times.
   EXPECT_LE(timeOf(8), 2.5 * timeOf(1));
+}
+
+std::string fault(const Cuboid& lower) {
+  const TetrahedronMesh a = cuboidMesh({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}});
+  const TetrahedronMesh b = cuboidMesh(lower);
+  const SpaceNodes aNodes = spaceNodes(a, 1);
+  const SpaceNodes bNodes = spaceNodes(b, 1);
+  try {
+    ContactInterface::inSpace({{0, 1}, {1, 3}, CouplingKind::weighted}, {a, aNodes}, {b, bNodes}, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SpaceInterface, saysWhyTwoSidesHaveNoRows) {
+  EXPECT_EQ("none", fault({{0, 0, -1}, {1, 1, 0}, {2, 2, 2}}));
+  EXPECT_EQ("box label 1 \"bottom\" and box label 3 \"top\" do not face each other",
+            fault({{2, 0, -1}, {3, 1, 0}, {2, 2, 2}}));
+  EXPECT_EQ(
+      "box label 1 \"bottom\" and box label 3 \"top\" overlap at no nonmortar node, expected one across "
+      "the mortar side: a finer nonmortar side, or the sides exchanged",
+      fault({{0.2, 0.2, -1}, {0.8, 0.8, 0}, {2, 2, 2}}));
 }
 
 }  // namespace mortier::space_interface_test
