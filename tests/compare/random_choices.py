@@ -1,5 +1,6 @@
 """Random scenes of what random_scenes.py leaves out: every law, axes, temperature, friction, round bodies,
-bodies of revolution, degree 2, distances that change, quantities and accuracies. Run by random_scenes.py."""
+bodies of revolution, degree 2, distances that change, quantities and accuracies; bodies in space. Run by
+random_scenes.py."""
 import math
 import random
 
@@ -19,12 +20,13 @@ class WideScene:
 
     KINDS = ("plane", "degree", "scheme", "law", "friction", "temperature", "round", "gap", "accuracy",
              "bodies")
+    PLANES = ("stress", "strain", "axisymmetric")
 
     def __init__(self, seed, units=(1.0, 1.0, 1.0), turned=False, exchanged=False):
         stress, self.length, time = units
         self.turned = turned
         self.rng = rng = random.Random(1000003 * seed + 17)
-        self.plane = rng.choice(["stress", "strain", "axisymmetric"])
+        self.plane = rng.choice(self.PLANES)
         self.degree = rng.choice([1, 1, 2])
         self.scheme = rng.choice(SCHEMES)
         self.load, self.end = decades(rng, -2, 8) * stress, decades(rng, -1, 2) * time
@@ -32,13 +34,13 @@ class WideScene:
         self.law = rng.choice(LAWS)
         self.ramp = f"(t/{self.end!r})"
         bodies = rng.choice([1, 2, 2, 2, 3])
-        self.rough = bodies > 1 and rng.random() < 0.35
+        self.rough = bodies > 1 and rng.random() < 0.35 and self.plane != "space"
         self.warm = rng.random() < 0.25
         self.accuracy = rng.random() < 0.1 and self.scheme != "crank-nicolson"
         self.meshes, self.laws = {}, set()
         self.moves, self.curved = "none", False
-        self.text = [f'title = "random choices {seed}"', f'plane = "{self.plane}"',
-                     f"degree = {self.degree}"]
+        self.text = [f'title = "random choices {seed}"', f"degree = {self.degree}",
+                     "dimension = 3" if self.plane == "space" else f'plane = "{self.plane}"']
         self.make_bodies(("lower", "upper", "top")[:bodies])
         if exchanged:
             self.exchange_bodies()
@@ -139,7 +141,7 @@ class WideScene:
         if law == "axes":
             text = (f'elasticity = "orthotropic", young1 = {young!r}, young2 = {young * 0.3!r}, '
                     f"poisson12 = 0.2, shear12 = {young * 0.2!r}, young3 = {young!r}, poisson13 = 0.2, "
-                    f"poisson23 = 0.05, angle = {rng.uniform(0, 3) + (math.pi / 2 if self.turned else 0)!r}")
+                    f"poisson23 = 0.05, {self.axes(young)}")
         elif law == "perzyna":
             text += (f", viscosity = {end * young / decades(rng, -2, 6)!r}, "
                      f"yield_stress = {load * decades(rng, -3, 1)!r}")
@@ -160,6 +162,9 @@ class WideScene:
             place = ("y" if self.turned else "x") + (f"/{self.length!r}" if self.length != 1 else "")
             self.text.append(f'temperature = "{rng.uniform(-100, 100)!r}*{self.ramp}*(1+0.3*{place})"')
         return f"material = {{ {text} }}"
+
+    def axes(self, _):
+        return f"angle = {self.rng.uniform(0, 3) + (math.pi / 2 if self.turned else 0)!r}"
 
     def rates(self, factor):
         """Creep with the third power of von Mises' stress."""
@@ -210,3 +215,94 @@ class WideScene:
             self.text.append(f"tolerance = {decades(rng, -2.5, -1)!r}")
         else:
             self.text.append(f"steps = {rng.choice([1, 3, 8])}")
+
+
+class SpaceScene(WideScene):
+    """The same of bodies in space, stacked along z: cuboids, the last one a part of a ball or a cylinder."""
+
+    PLANES = ("space",)
+    SIDES = {"cuboid": (1, 3), "ball": (7, 3), "cylinder": (1, 3)}  # below and above
+
+    def along(self, name, value, factor):
+        return f'{name}z = "{factor!r}*{value}"'
+
+    def make_bodies(self, names):
+        rng, length, bottom = self.rng, self.length, 0.0
+        shape = "cuboid"
+        for i, name in enumerate(names):
+            last = i == len(names) - 1
+            shape = rng.choice(["cuboid", "cuboid", "ball", "cylinder"]) if last and i > 0 else "cuboid"
+            self.curved = shape != "cuboid"
+            height = rng.choice([0.2, 1.0, 2.0])
+            self.text += ["[[body]]", f'name = "{name}"',
+                          f"mesh = {{ {self.mesh(shape, i, bottom, height)} }}"]
+            if rng.random() < 0.15:
+                self.text.append(self.along("force.", self.ramp, -self.load * decades(rng, -3, 0) / length))
+            self.text.append(self.material(self.young * (1 if i % 2 == 0 else decades(rng, -3, 3))))
+            if i == 0:
+                self.text += ["[[body.boundary]]", "label = 1", "ux = 0", "uy = 0", "uz = 0"]
+            elif rng.random() < 0.8:
+                side = self.SIDES[shape][1] if self.curved else 4
+                self.text += ["[[body.boundary]]", f"label = {side}", "ux = 0", "uy = 0"]
+            if last:
+                self.drive()
+            bottom += height
+        for i, (lower, upper) in enumerate(zip(names, names[1:])):
+            self.contact(lower, upper, self.SIDES[shape if i == len(names) - 2 else "cuboid"][0])
+        if rng.random() < 0.4:
+            self.quantities(names)
+
+    def mesh(self, shape, i, bottom, height):
+        rng, length = self.rng, self.length
+        point = lambda *x: "[" + ", ".join(repr(each * length) for each in x) + "]"
+        if shape == "ball":
+            radius = rng.choice([0.5, 1.0, 3.0])
+            return (f'shape = "ball", radius = {radius * length!r}, cells = {rng.randint(1, 3)}, '
+                    f'keep = ["-z"], centre = {point(0.5, 0.5, bottom + radius)}')
+        if shape == "cylinder":
+            return (f'shape = "cylinder", radius = {rng.choice([0.3, 0.5, 0.8]) * length!r}, height = '
+                    f"{height * length!r}, cells = {rng.randint(1, 3)}, centre = {point(0.5, 0.5, bottom)}")
+        wide = [1.0 if i == 0 or rng.random() < 0.6 else rng.uniform(0.4, 1.3) for _ in range(2)]
+        return (f'shape = "cuboid", cells = {[rng.randint(1, 3) for _ in range(3)]}, lower = '
+                f"{point(0.0, 0.0, bottom)}, upper = {point(*wide, bottom + height)}")
+
+    def drive(self):
+        rng, s = self.rng, self.ramp
+        shape = rng.choice([s, s, f"min(1, 2*{s})", f"({s}<0.5 ? 2*{s} : 2-2*{s})", f"sin(4*pi*{s})", "1"])
+        shape += rng.choice(["", "", f"*(1+0.5*x/{self.length!r})", f"*cos(2*y/{self.length!r})"])
+        if "label = 3" not in self.text[-4:]:
+            self.text += ["[[body.boundary]]", "label = 3"]
+        if rng.random() < 0.5 and not self.curved:
+            self.text.append(self.along("t", shape, -self.load))
+        else:
+            moved = -self.load / self.young * decades(rng, -1, 0.5)
+            self.text.append(self.along("u", shape, moved * self.length))
+
+    def axes(self, young):
+        return f"shear13 = {young * 0.3!r}, shear23 = {young * 0.1!r}"
+
+    def rates(self, factor):
+        shear = "(s12*s12+s13*s13+s23*s23)"
+        square = f"(0.5*((s11-s22)^2+(s22-s33)^2+(s33-s11)^2)+3*{shear})"
+        parts = [f'rate{i}{i} = "A*{square}*(1.5*s{i}{i}-(s11+s22+s33)/2)"' for i in (1, 2, 3)]
+        parts += [f'rate{ij} = "A*{square}*1.5*s{ij}"' for ij in (12, 13, 23)]
+        return ", ".join([*parts, f"parameters = {{ A = {factor!r} }}"])
+
+    def contact(self, lower, upper, below):
+        rng = self.rng
+        sides = [f'{{ body = "{upper}", label = {below} }}', f'{{ body = "{lower}", label = 3 }}']
+        variants = ["weighted"] if self.degree == 2 or self.accuracy else ["mortar", "interpolation", "weighted"]
+        self.text += ["[[contact]]", f'variant = "{rng.choice(variants)}"', 'sliding = "allow"']
+        self.text.append(f"sides = [ {sides[0]}, {sides[1]} ]")
+        if rng.random() < 0.15:
+            self.moves = rng.choice(["moves", "stands"])
+            amount = rng.choice([-1, 1]) * self.load / self.young * decades(rng, -1, 1) * self.length
+            self.text.append(f'gap = "{amount!r}*{self.ramp if self.moves == "moves" else 1}"')
+
+    def quantities(self, names):
+        lines = [f'{kind} = {{ body = "{names[-1]}" }}' for kind in ("stored_energy", "work", "largest_mises")]
+        lines.append('reaction = { body = "lower", label = 1 }\ncomponent = "z"')
+        if len(names) > 1:
+            lines.append('largest_pressure = { body = "lower", label = 3 }')
+        for number, line in enumerate(self.rng.sample(lines, 3)):
+            self.text += ["[[quantity]]", f'name = "q{number}"', line]

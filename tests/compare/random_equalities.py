@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Random scenes of random_choices.py in other words, which must change nothing: units whose factors are no
-powers of two, x and y turned by a right angle, the bodies in the reverse order, two threads, without
-`solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest stress, force, energy
+powers of two, x and y turned by a right angle (in the plane), the bodies in the reverse order, two threads,
+without `solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest stress, force, energy
 and displacement of the run.
 
-Usage: random_equalities.py [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
+Usage: random_equalities.py [--space] [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
 """
 import argparse
 import collections
@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from random_choices import WideScene
+from random_choices import SpaceScene, WideScene
 
 UNITS = (7.3, 0.21, 3.1)  # of stress, length and time
 WAYS = {
@@ -64,7 +64,8 @@ def run(program, folder, scene, turned, options, patience):
     columns = {}
     for name, powers in COLUMNS.items():
         header = next((key for key in (rows[0] if rows else {}) if key.split("[")[0] == name), None)
-        depth = 1 if scene.plane == "axisymmetric" and name in ("contact_force", "elastic_energy") else 0
+        deep = scene.plane in ("axisymmetric", "space")  # forces and energies are not those of a depth
+        depth = 1 if deep and name in ("contact_force", "elastic_energy") else 0
         unit = units[0]**powers[0] * units[1]**(powers[1] + depth) * units[2]**powers[2]
         columns[name] = [float(row[header]) / unit for row in rows] if header else []
     return done.returncode, columns, done.stderr
@@ -78,7 +79,7 @@ def scales(scene, columns):
     young = max(float(number) for number in re.findall(r"young1? = ([^,]+)", "\n".join(scene.text)))
     # Loads may end at 0, of which what remains is rounding of what was prescribed.
     moved = max([largest["displacement_max"], *(float(number) for number in
-                                                re.findall(r'uy = "-?([0-9.e-]+)\*', "\n".join(scene.text)))])
+                                                re.findall(r'u[yz] = "-?([0-9.e-]+)\*', "\n".join(scene.text)))])
     stress = max(largest["von_mises_max"], largest["max_pressure"], known * young * moved)
     return {**largest, "displacement_max": max(largest["displacement_max"], known * moved),
             "max_pressure": stress, "von_mises_max": stress,
@@ -94,17 +95,17 @@ def differences(scene, columns, other):
             for name, values in columns.items()}
 
 
-def compare(program, seed, patience):
+def compare(program, seed, patience, kind=WideScene):
     """The seed, the exit code as it stands, and (way, column, difference) of all ways."""
     with tempfile.TemporaryDirectory(prefix=f"equal-{seed}-") as name:
         folder = Path(name)
-        scene = WideScene(seed)
+        scene = kind(seed)
         code, columns, _ = run(program, folder / "as it stands", scene, False, [], patience)
         found = []
         for way, (changes, options) in WAYS.items():
-            if way == "turned" and scene.plane == "axisymmetric":
+            if way == "turned" and scene.plane in ("axisymmetric", "space"):
                 continue
-            other = WideScene(seed, **changes)
+            other = kind(seed, **changes)
             again, others, told = run(program, folder / way, other, way == "turned", options, patience)
             if again != code:
                 found.append((way, f"exit code {code}, {again}: {told.strip()[-200:]}", float("inf")))
@@ -122,11 +123,13 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--patience", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--space", action="store_true")
     options = parser.parse_args()
+    kind = SpaceScene if options.space else WideScene
     program, worst, unequal = str(Path(options.mortier).resolve()), collections.defaultdict(list), 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         seeds = range(options.seed, options.seed + options.count)
-        for seed, code, found in pool.map(lambda s: compare(program, s, options.patience), seeds):
+        for seed, code, found in pool.map(lambda s: compare(program, s, options.patience, kind), seeds):
             for way, name, difference in found:
                 worst[way].append(difference)
                 if not difference <= TOLERANCE:

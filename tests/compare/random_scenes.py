@@ -11,7 +11,7 @@ Exit code 0 is asked for. 3 is right where contact alone holds a body and the lo
 rare, with a reason; a run that takes longer than the patience counts as a fault whatever it would have ended
 with.
 
-Usage: random_scenes.py [--choices] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
+Usage: random_scenes.py [--choices | --space] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
                         [--mortier build/mortier]
 Scene N is the same on every machine: random_scenes.py --seed N --count 1 --keep FOLDER shows it.
 """
@@ -273,8 +273,10 @@ def main():
     parser.add_argument("--keep", help="folder to copy the scenes and results to")
     parser.add_argument("--json", help="file for the results, one a line")
     parser.add_argument("--choices", action="store_true", help="scenes of random_choices.py")
+    parser.add_argument("--space", action="store_true", help="those in space")
     options = parser.parse_args()
-    kind = importlib.import_module("random_choices").WideScene if options.choices else Scene
+    choices = importlib.import_module("random_choices")
+    kind = choices.SpaceScene if options.space else choices.WideScene if options.choices else Scene
 
     def watch(result):
         if result["code"] != 0:

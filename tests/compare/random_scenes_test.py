@@ -1,13 +1,14 @@
 """A part of the random scenes: every one ends soon, with a result or with the motion that nothing holds."""
 import unittest
 
-from random_choices import WideScene
+from random_choices import SpaceScene, WideScene
 from random_equalities import TOLERANCE, compare
 from random_scenes import Scene, explore
 from support import PROGRAM
 
 FIRST, COUNT = 176, 58
 CHOICES = 80
+SPACE = 60
 EQUALITIES = 8
 # Steps end at kinks of data, in three units of time; the second takes another mesh where ties decide.
 KINKS = (15, 32)
@@ -58,6 +59,7 @@ class RandomScenes(unittest.TestCase):
 
     def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
         results = explore(PROGRAM, 0, CHOICES, SECONDS, kind=WideScene)
+        results += explore(PROGRAM, 0, SPACE, SECONDS, kind=SpaceScene)
         for seed in (BETWEEN_NODES, ON_THE_AXIS, FORCELESS, OUTGROWN, COARSE):
             results += explore(PROGRAM, seed, 1, SECONDS, kind=WideScene)
         for result in results:
@@ -66,14 +68,16 @@ class RandomScenes(unittest.TestCase):
                 if result["code"] == 3:
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")
                     self.assertRegex(result["told"], "(hold|holds) (body|its) .*(translation|rotation)")
-        self.assertGreater(sum(result["code"] == 0 for result in results), CHOICES * 3 // 4)
+        self.assertGreater(sum(result["code"] == 0 for result in results), (CHOICES + SPACE) * 3 // 4)
 
     def test_other_words_for_a_scene_change_nothing(self):
         """Units, axes, the order of bodies, threads, what is reduced, libraries: random_equalities.py."""
-        for seed in (*range(EQUALITIES), *KINKS):
-            _, code, found = compare(PROGRAM, seed, SECONDS)
+        scenes = [(WideScene, seed) for seed in (*range(EQUALITIES), *KINKS)]
+        scenes += [(SpaceScene, seed) for seed in range(EQUALITIES)]
+        for kind, seed in scenes:
+            _, code, found = compare(PROGRAM, seed, SECONDS, kind)
             for way, column, difference in found:
-                with self.subTest(seed=seed, code=code, way=way, column=column):
+                with self.subTest(kind=kind.__name__, seed=seed, code=code, way=way, column=column):
                     self.assertLessEqual(difference, TOLERANCE)
 
     def test_what_is_not_solved_has_its_own_reason_soon(self):
