@@ -21,6 +21,7 @@ class WideScene:
     KINDS = ("plane", "degree", "scheme", "law", "friction", "temperature", "round", "gap", "accuracy",
              "bodies")
     PLANES = ("stress", "strain", "axisymmetric")
+    REFINED = 0.1  # of all scenes
 
     def __init__(self, seed, units=(1.0, 1.0, 1.0), turned=False, exchanged=False):
         stress, self.length, time = units
@@ -36,7 +37,7 @@ class WideScene:
         bodies = rng.choice([1, 2, 2, 2, 3])
         self.rough = bodies > 1 and rng.random() < 0.35 and self.plane != "space"
         self.warm = rng.random() < 0.25
-        self.accuracy = rng.random() < 0.1 and self.scheme != "crank-nicolson"
+        self.accuracy = rng.random() < self.REFINED and self.scheme != "crank-nicolson"
         self.meshes, self.laws = {}, set()
         self.moves, self.curved = "none", False
         self.text = [f'title = "random choices {seed}"', f"degree = {self.degree}",
@@ -221,6 +222,7 @@ class SpaceScene(WideScene):
     """The same of bodies in space, stacked along z: cuboids, the last one a part of a ball or a cylinder."""
 
     PLANES = ("space",)
+    REFINED = 0  # rounds in space take minutes
     SIDES = {"cuboid": (1, 3), "ball": (7, 3), "cylinder": (1, 3)}  # below and above
 
     def along(self, name, value, factor):
@@ -291,7 +293,7 @@ class SpaceScene(WideScene):
     def contact(self, lower, upper, below):
         rng = self.rng
         sides = [f'{{ body = "{upper}", label = {below} }}', f'{{ body = "{lower}", label = 3 }}']
-        variants = ["weighted"] if self.degree == 2 or self.accuracy else ["mortar", "interpolation", "weighted"]
+        variants = ["weighted"] if self.degree == 2 else ["mortar", "interpolation", "weighted"]
         self.text += ["[[contact]]", f'variant = "{rng.choice(variants)}"', 'sliding = "allow"']
         self.text.append(f"sides = [ {sides[0]}, {sides[1]} ]")
         if rng.random() < 0.15:
@@ -300,7 +302,8 @@ class SpaceScene(WideScene):
             self.text.append(f'gap = "{amount!r}*{self.ramp if self.moves == "moves" else 1}"')
 
     def quantities(self, names):
-        lines = [f'{kind} = {{ body = "{names[-1]}" }}' for kind in ("stored_energy", "work", "largest_mises")]
+        choices = ["stored_energy", "work", "largest_mises"]
+        lines = [f'{kind} = {{ body = "{names[-1]}" }}' for kind in choices]
         lines.append('reaction = { body = "lower", label = 1 }\ncomponent = "z"')
         if len(names) > 1:
             lines.append('largest_pressure = { body = "lower", label = 3 }')

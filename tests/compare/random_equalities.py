@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Random scenes of random_choices.py in other words, which must change nothing: units whose factors are no
-powers of two, x and y turned by a right angle (in the plane), the bodies in the reverse order, two threads,
-without `solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest stress, force, energy
-and displacement of the run.
+powers of two, x and y turned by a right angle (in the plane), the bodies in the reverse order, two
+threads, without `solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest
+stress, force, energy and displacement of the run.
 
-Usage: random_equalities.py [--space] [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
+Usage: random_equalities.py [--space] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
+                            [--mortier build/mortier]
 """
 import argparse
 import collections
@@ -78,8 +79,8 @@ def scales(scene, columns):
     largest = {name: max(map(abs, values), default=0) for name, values in columns.items()}
     young = max(float(number) for number in re.findall(r"young1? = ([^,]+)", "\n".join(scene.text)))
     # Loads may end at 0, of which what remains is rounding of what was prescribed.
-    moved = max([largest["displacement_max"], *(float(number) for number in
-                                                re.findall(r'u[yz] = "-?([0-9.e-]+)\*', "\n".join(scene.text)))])
+    driven = re.findall(r'u[yz] = "-?([0-9.e-]+)\*', "\n".join(scene.text))
+    moved = max([largest["displacement_max"], *map(float, driven)])
     stress = max(largest["von_mises_max"], largest["max_pressure"], known * young * moved)
     return {**largest, "displacement_max": max(largest["displacement_max"], known * moved),
             "max_pressure": stress, "von_mises_max": stress,
