@@ -12,7 +12,7 @@
 #include <ctime>
 #include <vector>
 
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "mesh/shape.h"
 #include "solver/step_system.h"
 #include "time/march.h"
@@ -33,11 +33,11 @@ void measure(int cells) {
   const double start = now();
   Model model;
   model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {cells, cells, cells}}),
-                            spaceElasticMaterial(elasticity),
+                            elasticMaterial(elasticity, Plane::none),
                             SpaceConditions{{held(4, spaceX), held(5, spaceY)}, {{3, spaceZ, load}}}, 2);
   const int finer = cells * 13 / 12;
   model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {finer, finer, finer}}),
-                            spaceElasticMaterial(elasticity),
+                            elasticMaterial(elasticity, Plane::none),
                             SpaceConditions{{held(1, spaceX), held(1, spaceY), held(1, spaceZ)}, {}}, 2);
   const double bodies = now();
   addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
@@ -62,7 +62,7 @@ void measureCoupling(int cells) {
   Model model;
   const auto plate = [&](const char* name, double lower, int along) {
     model.bodies.emplace_back(name, cuboidMesh({{0, 0, lower}, {1, 1, lower + 0.1}, {along, along, 1}}),
-                              spaceElasticMaterial({1000, 0.3}), SpaceConditions{}, 2);
+                              elasticMaterial({1000, 0.3}, Plane::none), SpaceConditions{}, 2);
   };
   plate("upper", 0, cells);
   plate("lower", -0.1, cells * 13 / 12);
@@ -81,11 +81,11 @@ void countSets(int cells) {
   const auto held = [&](int label, int component) { return SpaceCondition{label, component, zero}; };
   Model model;
   model.bodies.emplace_back("ball", rounded(cuboidMesh({{0, 0, 0}, {1, 1, 1}, {cells, cells, cells / 2}})),
-                            spaceElasticMaterial({1000, 0.3}),
+                            elasticMaterial({1000, 0.3}, Plane::none),
                             SpaceConditions{{held(4, spaceX), held(5, spaceY), {3, spaceZ, approach}}, {}},
                             1);
   model.bodies.emplace_back("block", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {cells + 3, cells + 3, cells / 2}}),
-                            spaceElasticMaterial({1000, 0.3}),
+                            elasticMaterial({1000, 0.3}, Plane::none),
                             SpaceConditions{{held(4, spaceX), held(5, spaceY), held(1, spaceZ)}, {}}, 1);
   addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
   StepSystem system(model, {});

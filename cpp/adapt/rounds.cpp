@@ -6,7 +6,7 @@
 
 #include "base/digits.h"
 #include "base/interrupt.h"
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "plan/loads.h"
 
 namespace mortier {
@@ -34,7 +34,7 @@ Body heldBody(const BodyDescription& description, TetrahedronMesh mesh) {
   for (const ConditionDescription& c : description.conditions)
     if (c.kind == ConditionDescription::Kind::displacement)
       conditions.displacements.push_back({c.label, c.component, {}, c.pointInSpace});
-  return {description.name, std::move(mesh), spaceElasticMaterial({1, 0}), std::move(conditions), 1};
+  return {description.name, std::move(mesh), elasticMaterial({1, 0}, Plane::none), std::move(conditions), 1};
 }
 
 AdaptedMeshes firstMeshes(const ResolvedScene& scene) {

@@ -1,6 +1,6 @@
 // The tetrahedra of a body in space, its supports and loads: what a Body is made of there (fem/body.h).
 //
-// Stress and strain are vectors of six components (material/space.h).
+// Stress and strain are vectors of six components (material/deviatoric.h).
 #pragma once
 
 #include <functional>

@@ -5,131 +5,12 @@
 
 #include "base/dense_templates.h"
 #include "base/error.h"
-#include "material/point_material.h"
-#include "material/space.h"
+#include "base/worst.h"
+#include "material/interior_path.h"
+#include "material/parts.h"
 
 namespace mortier {
 namespace {
-
-// Linearised, the law of any elasticity (below) has H = H0 + F F': the change of stress and the moduli of the
-// isotropic law are corrected by
-//   H^-1 = H0^-1 - B M^-1 B',   B = H0^-1 F,   M = 1 + F'B,
-// all of positive matrices, whatever flows.
-template <int n>
-void soften(const Eigen::Matrix<double, n, n>& F, PointAnswer<n>& answer) {
-  std::array<Lanes, n* n>& D = answer.moduli;  // column major, as all here
-  std::array<Lanes, n * n> B;
-  std::array<Lanes, n*(n + 1)> X;  // F'D and F' change, then M^-1 of it
-  std::array<Lanes, n * n> M;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      B[n * j + i] = 0;
-      X[n * j + i] = 0;
-      for (int k = 0; k < n; ++k) {
-        B[n * j + i] += D[n * k + i] * F(k, j);
-        X[n * j + i] += F(k, i) * D[n * j + k];
-      }
-    }
-  for (int i = 0; i < n; ++i) {
-    X[n * n + i] = 0;
-    for (int k = 0; k < n; ++k) X[n * n + i] += F(k, i) * answer.change[k];
-  }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      M[n * j + i] = i == j ? 1 : 0;
-      for (int k = 0; k < n; ++k) M[n * j + i] += F(k, i) * B[n * j + k];
-    }
-  for (int k = 0; k < n; ++k)  // Gauss; M is positive
-    for (int i = k + 1; i < n; ++i) {
-      const Lanes factor = M[n * k + i] / M[n * k + k];
-      for (int j = k + 1; j < n; ++j) M[n * j + i] -= factor * M[n * j + k];
-      for (int j = 0; j <= n; ++j) X[n * j + i] -= factor * X[n * j + k];
-    }
-  for (int j = 0; j <= n; ++j)
-    for (int k = n - 1; k >= 0; --k) {
-      for (int i = k + 1; i < n; ++i) X[n * j + k] -= M[n * i + k] * X[n * j + i];
-      X[n * j + k] /= M[n * k + k];
-    }
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i < n; ++i) {
-      Lanes& entry = j < n ? D[n * j + i] : answer.change[i];
-      for (int k = 0; k < n; ++k) entry -= B[n * k + i] * X[n * j + k];
-    }
-}
-
-// A law with any symmetric elliptic E made of the same law with an isotropic one. With E0 = c 1, c the
-// largest eigenvalue of E (isotropic, nu = 0), E^-1 = E0^-1 + F F', and
-//   E0^-1 (s - s0) + weight G(s) = strain - F F' (s - s0)
-// is the law of E.
-template <class Law>
-class OfAnyElasticity {
-  static constexpr int n = Law::components;
-  using Components = std::array<Lanes, n>;
-  using Square = Eigen::Matrix<double, n, n>;
-
- public:
-  static constexpr int components = n;
-  static constexpr bool linear = Law::linear;
-  static constexpr bool needsTotalStrain = false;
-
-  /// \param law  with the isotropic elasticity of modulus `largest`, the largest eigenvalue of E
-  OfAnyElasticity(Law law, const Matrix& E, double largest) : law_(std::move(law)) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(E);
-    const Eigen::Array<double, n, 1> inverse = eigen.eigenvalues().array().inverse();
-    const Eigen::Array<double, n, 1> beyond = (inverse - 1 / largest).max(0);
-    inverse_ = eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();
-    F_ = eigen.eigenvectors() * beyond.sqrt().matrix().asDiagonal();
-    excess_ = F_ * F_.transpose();
-  }
-
-  [[nodiscard]] bool symmetric() const { return law_.symmetric(); }
-  [[nodiscard]] double stressScale() const { return law_.stressScale(); }
-  [[nodiscard]] double stiffness(double weight) const { return law_.stiffness(weight); }
-  template <class Scalar>
-  [[nodiscard]] auto flows(const std::array<Scalar, n>& stress) const {
-    return law_.flows(stress);
-  }
-  [[nodiscard]] Lanes penalty(const Components& stress) const { return law_.penalty(stress); }
-  [[nodiscard]] Components rate(const Components& stress, const Components& total) const {
-    return law_.rate(stress, total);
-  }
-  [[nodiscard]] Components elasticStrain(const Components& stress) const { return times(inverse_, stress); }
-  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress) const {
-    return -inverse_.template block<1, 3>(n - 1, 0).dot(stress) / inverse_(n - 1, n - 1);
-  }
-
-  [[nodiscard]] PointAnswer<n> linearise(PointStep<n> point) const {
-    Components moved;
-    for (int k = 0; k < n; ++k) moved[k] = point.stress[k] - point.stress0[k];
-    moved = times(excess_, moved);
-    for (int k = 0; k < n; ++k) point.strain[k] -= moved[k];
-    PointAnswer<n> answer = law_.linearise(point);
-    soften<n>(F_, answer);
-    for (int k = 0; k < n; ++k) answer.predictor[k] = point.stress[k] + answer.change[k];
-    return answer;
-  }
-  /// The law is met halfway, as by elasticity.
-  [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& /*penalty*/) const {
-    PointAnswer<n> answer = linearise(point);
-    for (Lanes& change : answer.change) change *= 0.5;
-    return answer;
-  }
-
- private:
-  static Components times(const Square& matrix, const Components& x) {
-    Components y;
-    for (int i = 0; i < n; ++i) {
-      y[i] = matrix(i, 0) * x[0];
-      for (int k = 1; k < n; ++k) y[i] += matrix(i, k) * x[k];
-    }
-    return y;
-  }
-
-  Law law_;
-  Square inverse_;  ///< E^-1 [1/Pa]
-  Square F_;
-  Square excess_;  ///< F F'
-};
 
 /// From (s11, s22, s12) to (p, q, r), s33 as it is; or from s11, s22, s12, s33, s13, s23 to those of space.
 Matrix basis(Eigen::Index n) {
@@ -169,57 +50,139 @@ Eigen::Index componentsIn(Plane plane) {
   return plane == Plane::stress ? 3 : plane == Plane::none ? 6 : 4;
 }
 
-/// Of isotropic elasticity without Poisson's effect, E = c 1.
-Elasticity stiffestOf(const Anisotropy& anisotropy) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(anisotropy.stiffness, Eigen::EigenvaluesOnly);
-  return {eigen.eigenvalues().maxCoeff(), 0};
-}
-
-template <class Law>
-std::shared_ptr<const Material> make(const Law& law, const Anisotropy& anisotropy, const Elasticity& stiffest,
-                                     Plane plane, const LawDescription& description) {
-  const auto made = [&]<class Whole>(const Whole& whole) {
-    return pointMaterial(OfAnyElasticity<Whole>(whole, anisotropy.stiffness, stiffest.young), description);
-  };
-  if constexpr (Law::components == 5)
-    return made(InSpace<Law>(law, stiffest));
-  else
-    return plane == Plane::stress ? made(law) : made(InPlaneStrain<Law>(law, stiffest));
-}
-
-/// The moduli in place of Young's modulus and Poisson's ratio.
-LawDescription described(LawDescription law, const Anisotropy& anisotropy) {
-  law.variant += (law.variant.empty() ? "" : ", ") + anisotropy.name;
-  law.parameters.erase(law.parameters.begin(), law.parameters.begin() + 2);
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(anisotropy.stiffness, Eigen::EigenvaluesOnly);
-  law.parameters.insert(law.parameters.begin(), {{"smallest_modulus", eigen.eigenvalues().minCoeff(), "Pa"},
-                                                 {"largest_modulus", eigen.eigenvalues().maxCoeff(), "Pa"}});
-  return law;
-}
-
-/// \tparam n  directions of the flow
-template <size_t n>
-std::shared_ptr<const Material> makeAny(const Anisotropy& anisotropy, const StressLaw& flow, Plane plane) {
-  const Elasticity stiffest = stiffestOf(anisotropy);
-  const double e = stiffest.young;
-  const auto made = [&](const auto& law, const LawDescription& description) {
-    return make(law, anisotropy, stiffest, plane, described(description, anisotropy));
-  };
-  const Pair a{plane == Plane::stress ? 0.5 : 1.5, 1.5};
-  if (const auto* norton = std::get_if<NortonCreep>(&flow)) {
-    requireValid(*norton);
-    return made(NortonLaw<n>({e, e}, a, *norton), describe(stiffest, *norton));
+// With E0 = c 1, c the largest eigenvalue of E (isotropic, nu = 0), E^-1 = E0^-1 + F F', and the law of E
+//   E0^-1 (s - s0) + weight G(s) = strain - F F' (s - s0)
+// is that of E0 at another strain. Linearised, it has H = H0 + F F': changes of stress and moduli are
+// corrected by
+//   H^-1 = H0^-1 - B M^-1 B',   B = H0^-1 F,   M = 1 + F'B,
+// all of positive matrices, whatever flows.
+class AnisotropicMaterial final : public Material, public Pointwise {
+ public:
+  AnisotropicMaterial(const Anisotropy& anisotropy, std::shared_ptr<const Material> isotropic,
+                      const std::vector<double>& angles)
+      : isotropic_(std::move(isotropic)), name_(anisotropy.name) {
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(anisotropy.stiffness);
+    moduli_ = eigen.eigenvalues();
+    const Vector inverse = moduli_.cwiseInverse();
+    rootInverse_ = eigen.eigenvectors() * inverse.cwiseSqrt().asDiagonal();
+    F_ =
+        eigen.eigenvectors() * (inverse.array() - 1 / moduli_.maxCoeff()).max(0).sqrt().matrix().asDiagonal();
+    for (const double angle : angles)
+      axes_.push_back({std::cos(2 * angle), std::sin(2 * angle), std::cos(angle), std::sin(angle)});
   }
-  if (const auto* perzyna = std::get_if<Viscoplasticity>(&flow)) {
-    requireValid(*perzyna);
-    if (plane == Plane::stress && perzyna->projection != Projection::frobenius)
-      throw InputError("expected projection = \"frobenius\" beside elasticity that is not isotropic");
-    LawDescription description = describe(stiffest, *perzyna);
-    if (plane == Plane::stress) description.variant = projectionNames[static_cast<int>(perzyna->projection)];
-    return made(PerzynaLaw<n>({e, e}, a, {1, 1}, *perzyna), description);
+
+  /// The moduli in place of Young's modulus and Poisson's ratio.
+  [[nodiscard]] std::vector<LawDescription> laws() const override {
+    std::vector<LawDescription> laws = isotropic_->laws();
+    for (LawDescription& law : laws) {
+      law.variant += (law.variant.empty() ? "" : ", ") + name_;
+      law.parameters[0] = {"smallest_modulus", moduli_.minCoeff(), "Pa"};
+      law.parameters[1] = {"largest_modulus", moduli_.maxCoeff(), "Pa"};
+    }
+    return laws;
   }
-  return made(ElasticLaw<n>({e, e}), describe(stiffest));
-}
+  [[nodiscard]] int components() const override { return isotropic_->components(); }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int point) const override {
+    if (components() != 4) return 0;
+    const ComponentMatrix root = atPoint(rootInverse_, point);
+    const ComponentMatrix inverse = root * root.transpose();
+    return -inverse.block<1, 3>(3, 0).dot(stress) / inverse(3, 3);
+  }
+  [[nodiscard]] std::shared_ptr<const Material> restricted(const std::vector<int>& points) const override {
+    auto own = std::make_shared<AnisotropicMaterial>(*this);
+    if (axes_.empty()) return own;
+    own->axes_.clear();
+    for (const int point : points) own->axes_.push_back(axes_[point]);
+    return own;
+  }
+  [[nodiscard]] bool symmetricTangent() const override { return isotropic_->symmetricTangent(); }
+  [[nodiscard]] bool linear() const override { return isotropic_->linear(); }
+  [[nodiscard]] bool needsTotalStrain() const override { return isotropic_->needsTotalStrain(); }
+  [[nodiscard]] double stressScale() const override { return isotropic_->stressScale(); }
+  [[nodiscard]] double stiffness(double weight) const override { return isotropic_->stiffness(weight); }
+  [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
+    return isotropic_->flows(stress, point, strain);
+  }
+
+  using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;
+
+  LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                      int end) const override {
+    return linearise(step, stress, result, begin, end, 1);
+  }
+  /// The law is met halfway, as by elasticity.
+  LawReport regularise(const MaterialStep& step, const Matrix& stress, const Vector& /*penalty*/,
+                       double relaxation, Linearisation& result, int begin, int end) const override {
+    return linearise(step, stress, result, begin, end, 0.5 * relaxation);
+  }
+  void choosePenalty(const Matrix& stress, Vector& penalty, int begin, int end) const override {
+    isotropic_->choosePenalty(stress, penalty, begin, end);
+  }
+  void viscoplasticRate(const MaterialState& state, Matrix& rate, int begin, int end) const override {
+    isotropic_->viscoplasticRate(state, rate, begin, end);
+  }
+  void elasticStrain(const Matrix& stress, Matrix& strain, int begin, int end) const override {
+    for (int i = begin; i < end; ++i) {
+      const ComponentMatrix root = atPoint(rootInverse_, i);
+      strain.col(i) = root * (root.transpose() * stress.col(i));
+    }
+  }
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(const PathStart& start,
+                                                           std::vector<int> points) const override {
+    return newtonPath(*this, start, std::move(points));
+  }
+
+ private:
+  /// Columns in the axes of a point: q and r turned, and in space the shears 13 and 23.
+  [[nodiscard]] ComponentMatrix atPoint(const ComponentMatrix& columns, int point) const {
+    ComponentMatrix turned = columns;
+    if (axes_.empty()) return turned;
+    const auto& [c2, s2, c, s] = axes_[point];
+    const auto turnPair = [&](int k, double cosine, double sine) {
+      turned.row(k) = cosine * columns.row(k) - sine * columns.row(k + 1);
+      turned.row(k + 1) = cosine * columns.row(k + 1) + sine * columns.row(k);
+    };
+    turnPair(1, c2, s2);
+    if (columns.rows() == 6) turnPair(3, c, s);
+    return turned;
+  }
+
+  /// \param part  of the change of stress that the predictor takes
+  LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                      int end, double part) const {
+    const int points = end - begin;
+    const Matrix s = stress.middleCols(begin, points);
+    const Matrix s0 = step.stress0.middleCols(begin, points);
+    Matrix strain = step.strain.middleCols(begin, points);
+    for (int i = 0; i < points; ++i) {
+      const ComponentMatrix F = atPoint(F_, begin + i);
+      strain.col(i) -= F * (F.transpose() * (s.col(i) - s0.col(i)));
+    }
+    Linearisation law = isotropic_->room(points);
+    const LawReport report =
+        isotropic_->linearise({step.weight, s0, strain, step.anticipate}, s, law, 0, points);
+    Worst worst;
+    for (int i = 0; i < points; ++i) {
+      const ComponentMatrix F = atPoint(F_, begin + i);
+      const ComponentMatrix moduli = moduliAt(law, i);
+      const ComponentMatrix B = moduli * F;
+      const Eigen::LLT<ComponentMatrix> M(ComponentMatrix::Identity(F.rows(), F.rows()) + F.transpose() * B);
+      PointVector change = law.predictor.col(i) - s.col(i);
+      change -= B * M.solve(PointVector(F.transpose() * change));
+      worst.add(part * change.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+      result.predictor.col(begin + i) = s.col(i) + part * change;
+      setModuli(moduli - B * M.solve(ComponentMatrix(B.transpose())), begin + i, result);
+    }
+    return {worst.value(), report.elastic};
+  }
+
+  std::shared_ptr<const Material> isotropic_;
+  std::string name_;
+  Vector moduli_;                ///< eigenvalues of E [Pa]
+  ComponentMatrix rootInverse_;  ///< its product with the transpose is E^-1 [1/Pa]
+  ComponentMatrix F_;
+  std::vector<std::array<double, 4>> axes_;  ///< cosine and sine of twice the angle of a point, and of it
+};
 
 }  // namespace
 
@@ -285,9 +248,15 @@ Vector alongAxes(const std::array<double, 3>& values, const Eigen::Matrix3d& axe
          componentsOf(axes * along.asDiagonal() * axes.transpose(), componentsIn(plane));
 }
 
-std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy, const StressLaw& flow,
-                                                    Plane plane) {
-  return plane == Plane::none ? makeAny<5>(anisotropy, flow, plane) : makeAny<3>(anisotropy, flow, plane);
+Elasticity stiffestOf(const Anisotropy& anisotropy) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(anisotropy.stiffness, Eigen::EigenvaluesOnly);
+  return {eigen.eigenvalues().maxCoeff(), 0};
+}
+
+std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy,
+                                                    std::shared_ptr<const Material> isotropic,
+                                                    const std::vector<double>& angles) {
+  return std::make_shared<AnisotropicMaterial>(anisotropy, std::move(isotropic), angles);
 }
 
 }  // namespace mortier

@@ -7,12 +7,10 @@
 #pragma once
 
 #include <array>
-#include <variant>
+#include <memory>
+#include <vector>
 
-#include "material/norton.h"
-#include "material/perzyna.h"
-#include "material/plane_strain.h"
-#include "material/stress.h"
+#include "material/elasticity.h"
 
 namespace mortier {
 
@@ -43,15 +41,14 @@ Eigen::Matrix3d axesAt(double angle);
 /// The tensor that has these values along three axes, by the components of a plane.
 Vector alongAxes(const std::array<double, 3>& values, const Eigen::Matrix3d& axes, Plane plane);
 
-/// The law beside elasticity; the first: none.
-using StressLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep>;
+/// E0 = c 1, c the largest eigenvalue of E: Young's modulus c without Poisson's effect.
+Elasticity stiffestOf(const Anisotropy& anisotropy);
 
-/// \throws InputError where Perzyna's projection in plane stress is not `frobenius`.
-std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy, const StressLaw& flow,
-                                                    Plane plane);
-
-/// A material whose axes are turned about the third one by an angle of their own at every point [rad].
-std::shared_ptr<const Material> turnedMaterial(std::shared_ptr<const Material> inner,
-                                               const std::vector<double>& angles);
+/// \param isotropic  the law with the elasticity `stiffestOf(anisotropy)`, whose rate is a function of the
+/// stress alone  \param angles  by which axes are turned about the third one, point by point [rad]; none:
+/// nowhere
+std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy,
+                                                    std::shared_ptr<const Material> isotropic,
+                                                    const std::vector<double>& angles = {});
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "material/deviatoric.h"
 
 namespace mortier {
 
@@ -34,10 +35,9 @@ LawDescription describe(const Elasticity& elasticity) {
   return description;
 }
 
-std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
-  requireValid(elasticity);
-  const Eigen::Array3d e = elasticity.moduli();
-  return pointMaterial(ElasticLaw({e[0], e[1]}), describe(elasticity));
+std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity, Plane plane) {
+  return isotropicMaterial(elasticity, plane, describe(elasticity),
+                           []<size_t n>(const Pair& e, const Pair& /*a*/) { return ElasticLaw<n>(e); });
 }
 
 }  // namespace mortier

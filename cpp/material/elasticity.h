@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/point_material.h"
+#include "material/stress.h"
 #include "material/yield_domain.h"
 
 namespace mortier {
@@ -71,7 +72,7 @@ class ElasticLaw {
   std::array<double, n> e_;
 };
 
-/// In plane stress.
-std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity);
+/// \throws InputError where a constant is wrong; so do the other materials.
+std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity, Plane plane = Plane::stress);
 
 }  // namespace mortier

@@ -166,11 +166,8 @@ std::shared_ptr<const Material> nortonMaterial(const Elasticity& elasticity, con
                                                Plane plane) {
   requireValid(elasticity);
   requireValid(creep);
-  const Eigen::Array3d e = elasticity.moduli();
-  if (plane == Plane::stress)
-    return pointMaterial(NortonLaw<>({e[0], e[1]}, {0.5, 1.5}, creep), describe(elasticity, creep));
-  return pointMaterial(InPlaneStrain(NortonLaw<>({e[1], e[1]}, {1.5, 1.5}, creep), elasticity),
-                       describe(elasticity, creep));
+  return isotropicMaterial(elasticity, plane, describe(elasticity, creep),
+                           [&]<size_t n>(const Pair& e, const Pair& a) { return NortonLaw<n>(e, a, creep); });
 }
 
 }  // namespace mortier

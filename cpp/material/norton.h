@@ -7,7 +7,7 @@
 // G is the gradient of a convex function: a step minimises a convex energy.
 #pragma once
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 namespace mortier {
 
@@ -67,7 +67,6 @@ class NortonLaw {
   NortonCreep creep_;
 };
 
-/// \throws InputError
 std::shared_ptr<const Material> nortonMaterial(const Elasticity& elasticity, const NortonCreep& creep,
                                                Plane plane);
 

@@ -9,7 +9,7 @@
 // f = vM(z) + rho - sigma_Y, p' is its rate G, and a step minimises a convex energy of (s, rho).
 #pragma once
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 namespace mortier {
 

@@ -1,6 +1,6 @@
-// The law of overstress.h in both planes, with what its hardening needs: the total strain, a component rho.
+// The law of overstress.h in the planes and in space, with what its hardening needs: the total strain, a
+// component rho.
 #include "material/overstress.h"
-#include "material/space.h"
 
 namespace mortier {
 namespace {
@@ -55,24 +55,25 @@ class OverstressLaw {
     return whole(s, isotropic ? rhoOf(stress) / K_ : Lanes(0));
   }
   [[nodiscard]] PointAnswer<components> linearise(const PointStep<components>& point) const {
-    return joined(point, flow_.linearise(own(point)), 1);
+    return answered(point, flow_.linearise(own(point)), 1);
   }
   /// Elasticity, and what it remembers, meet the law halfway.
   [[nodiscard]] PointAnswer<components> regularise(const PointStep<components>& point,
                                                    const Lanes& /*penalty*/) const {
-    return joined(point, flow_.regularise(own(point)), 0.5);
+    return answered(point, flow_.regularise(own(point)), 0.5);
   }
 
  private:
-  /// The directions of the flow, and the pressure of plane strain and of space.
+  static constexpr bool hasPressure = tensor > directions;
+
   template <class Scalar>
   static Parts<Scalar> parts(const std::array<Scalar, components>& s) {
-    if constexpr (tensor == 6)
-      return {{s[0], s[1], s[2], s[3], s[4]}, s[5]};
-    else if constexpr (tensor == 4)
-      return split(std::array<Scalar, 4>{s[0], s[1], s[2], s[3]});
+    std::array<Scalar, tensor> all;
+    std::copy_n(s.begin(), tensor, all.begin());
+    if constexpr (hasPressure)
+      return split(all);
     else
-      return {{s[0], s[1], s[2]}, 0};
+      return {all, 0};
   }
   template <class Scalar>
   static Scalar rhoOf(const std::array<Scalar, components>& s) {
@@ -81,13 +82,13 @@ class OverstressLaw {
   }
   static Stress whole(const Parts<Lanes>& s, const Lanes& rho) {
     Stress all;
-    if constexpr (tensor == 4) {
-      const std::array<Lanes, 4> four = mortier::joined(s);
-      std::copy(four.begin(), four.end(), all.begin());
-    } else {
-      std::copy(s.deviator.begin(), s.deviator.end(), all.begin());
-      if constexpr (tensor == 6) all[5] = s.pressure;
-    }
+    const auto stress = [&] {
+      if constexpr (hasPressure)
+        return joined(s);
+      else
+        return s.deviator;
+    }();
+    std::copy(stress.begin(), stress.end(), all.begin());
     if constexpr (isotropic) all[tensor] = rho;
     return all;
   }
@@ -102,10 +103,10 @@ class OverstressLaw {
             rhoOf(point.strain),
             point.weight};
   }
-  [[nodiscard]] PointAnswer<components> joined(const PointStep<components>& point,
-                                               const typename Flow::Answer& answer, double part) const {
+  [[nodiscard]] PointAnswer<components> answered(const PointStep<components>& point,
+                                                 const typename Flow::Answer& answer, double part) const {
     Lanes pressure = 0;
-    if constexpr (tensor > 3)
+    if constexpr (hasPressure)
       pressure = part * (bulk_ * parts(point.strain).pressure - parts(point.stress).pressure +
                          parts(point.stress0).pressure);
     PointAnswer<components> all;
@@ -115,16 +116,14 @@ class OverstressLaw {
     for (size_t k = 0; k < components; ++k) all.predictor[k] += all.change[k];
     constexpr size_t n = components;
     constexpr size_t t = tensor;
-    if constexpr (tensor == 4) {
-      const std::array<Lanes, 16> moduli = joinedModuli(answer.moduli, Lanes(bulk_));
-      for (size_t j = 0; j < t; ++j)
-        for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = moduli[t * j + i];
-    } else {
-      all.moduli.fill(0);
-      for (size_t j = 0; j < directions; ++j)
-        for (size_t i = 0; i < directions; ++i) all.moduli[n * j + i] = answer.moduli[directions * j + i];
-      if constexpr (tensor == 6) all.moduli[n * 5 + 5] = bulk_;
-    }
+    const auto moduli = [&] {
+      if constexpr (hasPressure)
+        return joinedModuli(answer.moduli, Lanes(bulk_));
+      else
+        return answer.moduli;
+    }();
+    for (size_t j = 0; j < t; ++j)
+      for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = moduli[t * j + i];
     if constexpr (isotropic) {
       const Stress mixed = whole({answer.mixed, 0}, answer.ofRho);
       for (size_t k = 0; k < n; ++k) all.moduli[n * t + k] = all.moduli[n * k + t] = mixed[k];
@@ -156,15 +155,9 @@ std::shared_ptr<const Material> overstressMaterial(const Elasticity& elasticity,
   requireValid(elasticity);
   requireValid(law);
   const Eigen::Array3d e = elasticity.moduli();
-  if (plane == Plane::stress) return make<3>(OverstressFlow<>({e[0], e[1]}, {0.5, 1.5}, law), elasticity);
-  return make<4>(OverstressFlow<>({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
-}
-
-std::shared_ptr<const Material> spaceOverstressMaterial(const Elasticity& elasticity, const Overstress& law) {
-  requireValid(elasticity);
-  requireValid(law);
-  const double e = elasticity.young / (1 + elasticity.poisson);
-  return make<6>(OverstressFlow<5>({e, e}, {1.5, 1.5}, law), elasticity);
+  if (plane == Plane::stress) return make<3>(OverstressFlow<3>({e[0], e[1]}, {0.5, 1.5}, law), elasticity);
+  if (plane == Plane::none) return make<6>(OverstressFlow<5>({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
+  return make<4>(OverstressFlow<3>({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
 }
 
 }  // namespace mortier

@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 namespace mortier {
 

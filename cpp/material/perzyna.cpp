@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "material/deviatoric.h"
+
 namespace mortier {
 
 template <size_t n>
@@ -151,20 +153,23 @@ LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& vis
 }
 
 std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
-                                                const Viscoplasticity& viscoplasticity) {
+                                                const Viscoplasticity& viscoplasticity, Plane plane) {
   requireValid(elasticity);
   requireValid(viscoplasticity);
-  const Eigen::Array3d e = elasticity.moduli();
-  const double ratio = viscoplasticity.projection == Projection::elasticity   ? e[0] / e[1]
-                       : viscoplasticity.projection == Projection::compliance ? e[1] / e[0]
-                                                                              : 1;
   LawDescription description = describe(elasticity, viscoplasticity);
-  description.variant = projectionNames[static_cast<int>(viscoplasticity.projection)];
-  // Without Poisson's effect E is a multiple of the identity.
-  description.projected->hasPotential =
-      viscoplasticity.projection == Projection::frobenius || elasticity.poisson == 0;
-  return pointMaterial(PerzynaLaw({e[0], e[1]}, {0.5, 1.5}, {ratio, 1}, viscoplasticity),
-                       std::move(description));
+  Pair w{1, 1};
+  if (plane == Plane::stress) {
+    const Eigen::Array3d e = elasticity.moduli();
+    if (viscoplasticity.projection == Projection::elasticity) w[0] = e[0] / e[1];
+    if (viscoplasticity.projection == Projection::compliance) w[0] = e[1] / e[0];
+    description.variant = projectionNames[static_cast<int>(viscoplasticity.projection)];
+    // Without Poisson's effect E is a multiple of the identity.
+    description.projected->hasPotential =
+        viscoplasticity.projection == Projection::frobenius || elasticity.poisson == 0;
+  }
+  return isotropicMaterial(elasticity, plane, description, [&]<size_t n>(const Pair& e, const Pair& a) {
+    return PerzynaLaw<n>(e, a, w, viscoplasticity);
+  });
 }
 
 }  // namespace mortier

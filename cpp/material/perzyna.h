@@ -70,8 +70,9 @@ class PerzynaLaw {
   YieldDomain<double> domain_;
 };
 
-/// In plane stress. \throws InputError
+/// The projection has a meaning in plane stress only.
 std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
-                                                const Viscoplasticity& viscoplasticity);
+                                                const Viscoplasticity& viscoplasticity,
+                                                Plane plane = Plane::stress);
 
 }  // namespace mortier

@@ -2,7 +2,7 @@
 //   p = (s11 + s22)/sqrt2,  q = (s11 - s22)/sqrt2,  r = sqrt2 s12,
 // and the same for strains, so that the scalar product of two vectors is sigma : eps.
 // In plane strain s33 follows as a fourth component; strains of the plane act on the first three. In space
-// there are six (material/space.h).
+// there are six (material/deviatoric.h).
 #pragma once
 
 #include <cmath>
@@ -11,6 +11,10 @@
 #include "base/types.h"
 
 namespace mortier {
+
+/// What is zero across the plane; of bodies that turn about the axis x = 0 nothing is: the fourth strain is
+/// that of the circumference. None: of bodies in space.
+enum class Plane { stress, strain, axisymmetric, none };
 
 /// (p, q, r) to (s11, s22, s12).
 inline Eigen::Vector3d toCartesian(const Eigen::Vector3d& pqr) {
@@ -34,7 +38,7 @@ inline double vonMises(const Eigen::Ref<const Vector>& stress) {
   return std::sqrt(first + 1.5 * (stress[1] * stress[1] + stress[2] * stress[2]));
 }
 
-/// (s11, s22, s33, s12, s13, s23) of a stress in space (material/space.h), and the reverse.
+/// (s11, s22, s33, s12, s13, s23) of a stress in space (material/deviatoric.h), and the reverse.
 using SpaceStress = Eigen::Matrix<double, 6, 1>;
 inline SpaceStress toSpaceCartesian(const SpaceStress& s) {
   constexpr double h = std::numbers::sqrt2 / 2;

@@ -1,21 +1,6 @@
 #include "material/viscoelastic.h"
 
 namespace mortier {
-namespace {
-
-template <class Law>
-std::shared_ptr<const Material> make(const Elasticity& elasticity, const Viscoelasticity& viscoelasticity,
-                                     Plane plane) {
-  const Eigen::Array3d e = elasticity.moduli();
-  LawDescription description = describe(elasticity, viscoelasticity);
-  if (plane == Plane::stress)
-    return pointMaterial(Law({e[0], e[1]}, {1.0 / 3, 1}, viscoelasticity), std::move(description));
-  return pointMaterial(InPlaneStrain(Law({e[1], e[1]}, {1, 1}, viscoelasticity), elasticity),
-                       std::move(description));
-}
-
-}  // namespace
-
 void requireValid(const Viscoelasticity& viscoelasticity) {
   requireParameter(viscoelasticity.relaxationTime > 0, "relaxation_time", viscoelasticity.relaxationTime,
                    "relaxation_time > 0 [s]");
@@ -35,9 +20,17 @@ std::shared_ptr<const Material> viscoelasticMaterial(const Elasticity& elasticit
                                                      const Viscoelasticity& viscoelasticity, Plane plane) {
   requireValid(elasticity);
   requireValid(viscoelasticity);
-  return viscoelasticity.relaxedFraction > 0
-             ? make<StandardSolid<>>(elasticity, viscoelasticity, plane)
-             : make<ViscoelasticLaw<false>>(elasticity, viscoelasticity, plane);
+  const auto made = [&](const auto& law) {
+    return isotropicMaterial(elasticity, plane, describe(elasticity, viscoelasticity), law);
+  };
+  const auto deviator = [](const Pair& a) { return Pair{a[0] / 1.5, a[1] / 1.5}; };
+  if (viscoelasticity.relaxedFraction > 0)
+    return made([&]<size_t n>(const Pair& e, const Pair& a) {
+      return StandardSolid<n>(e, deviator(a), viscoelasticity);
+    });
+  return made([&]<size_t n>(const Pair& e, const Pair& a) {
+    return ViscoelasticLaw<false, n>(e, deviator(a), viscoelasticity);
+  });
 }
 
 }  // namespace mortier

@@ -7,7 +7,7 @@
 //   G(s, eps) = (alpha s - g eps)/tau,   alpha = (1 - g) d/(2 G0) + g/e.
 #pragma once
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 namespace mortier {
 
@@ -115,7 +115,6 @@ class StandardSolid : public ViscoelasticLaw<true, n> {
   double spring_;  ///< 2 G1 [Pa]
 };
 
-/// \throws InputError
 std::shared_ptr<const Material> viscoelasticMaterial(const Elasticity& elasticity,
                                                      const Viscoelasticity& viscoelasticity, Plane plane);
 

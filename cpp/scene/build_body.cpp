@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/parts.h"
-#include "material/space.h"
 #include "mesh/boundary_line.h"
 #include "scene/build.h"
 #include "scene/expression.h"
@@ -115,12 +114,17 @@ void requireOneDisplacement(const Supports& supports,
 
 std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
                                                  const std::vector<double>& angles) {
-  StressLaw flow;
-  if (const auto* perzyna = description.as<Viscoplasticity>()) flow = *perzyna;
-  if (const auto* norton = description.as<NortonCreep>()) flow = *norton;
-  const Anisotropy anisotropy = description.anisotropy->in(plane);
-  if (angles.size() == 1) return anisotropicMaterial(turned(anisotropy, axesAt(angles[0])), flow, plane);
-  return turnedMaterial(anisotropicMaterial(anisotropy, flow, plane), angles);
+  const auto* perzyna = description.as<Viscoplasticity>();
+  if (perzyna != nullptr && plane == Plane::stress && perzyna->projection != Projection::frobenius)
+    throw InputError("expected projection = \"frobenius\" beside elasticity that is not isotropic");
+  Anisotropy anisotropy = description.anisotropy->in(plane);
+  const bool turnedAlike = angles.size() == 1;
+  if (turnedAlike) anisotropy = turned(anisotropy, axesAt(angles[0]));
+  MaterialDescription isotropic = description;
+  isotropic.anisotropy.reset();
+  isotropic.elasticity = stiffestOf(anisotropy);
+  return anisotropicMaterial(anisotropy, buildMaterial(isotropic, plane, {}),
+                             turnedAlike ? std::vector<double>() : angles);
 }
 
 }  // namespace
@@ -128,23 +132,16 @@ std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& desc
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<double>& angles) {
   if (description.anisotropy) return buildAnisotropic(description, plane, angles);
-  const bool space = plane == Plane::none;
   const Elasticity& elasticity = description.elasticity;
-  if (const auto* norton = description.as<NortonCreep>())
-    return space ? spaceNortonMaterial(elasticity, *norton) : nortonMaterial(elasticity, *norton, plane);
+  if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
   if (const auto* relaxing = description.as<Viscoelasticity>())
-    return space ? spaceViscoelasticMaterial(elasticity, *relaxing)
-                 : viscoelasticMaterial(elasticity, *relaxing, plane);
+    return viscoelasticMaterial(elasticity, *relaxing, plane);
   if (const auto* overstress = description.as<Overstress>())
-    return space ? spaceOverstressMaterial(elasticity, *overstress)
-                 : overstressMaterial(elasticity, *overstress, plane);
+    return overstressMaterial(elasticity, *overstress, plane);
   if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
-  const auto* perzyna = description.as<Viscoplasticity>();
-  if (plane == Plane::stress)
-    return perzyna ? perzynaMaterial(elasticity, *perzyna) : elasticMaterial(elasticity);
-  if (!perzyna) return space ? spaceElasticMaterial(elasticity) : planeStrainElasticMaterial(elasticity);
-  return space ? spacePerzynaMaterial(elasticity, *perzyna)
-               : planeStrainPerzynaMaterial(elasticity, *perzyna);
+  if (const auto* perzyna = description.as<Viscoplasticity>())
+    return perzynaMaterial(elasticity, *perzyna, plane);
+  return elasticMaterial(elasticity, plane);
 }
 
 std::shared_ptr<const Material> materialOfRegions(

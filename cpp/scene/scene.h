@@ -16,6 +16,7 @@
 #include "material/norton.h"
 #include "material/overstress.h"
 #include "material/own_material.h"
+#include "material/perzyna.h"
 #include "material/viscoelastic.h"
 #include "mesh/read.h"
 #include "scene/document.h"

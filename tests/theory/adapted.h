@@ -264,7 +264,7 @@ inline KnownProblem lShapeInSpace(int cells, int degree) {
                                             }});
     for (const int side : {5, 6}) conditions.displacements.push_back({side, spaceY, steady(0)});
     Model model;
-    model.bodies.emplace_back("L", std::move(meshes[0]), spaceElasticMaterial(elasticity), conditions,
+    model.bodies.emplace_back("L", std::move(meshes[0]), elasticMaterial(elasticity, Plane::none), conditions,
                               degree);
     return model;
   };

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/shaken_square.h"
 
 namespace mortier::scenes {

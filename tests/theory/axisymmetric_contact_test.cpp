@@ -55,7 +55,7 @@ void expectHydrostatic(const Pair& pair, double& worst) {
           for (const int label : pair.pressed[b])
             conditions.tractions.push_back({label, alongNormal, constant(-pressure)});
           model.bodies.emplace_back(b == 0 ? "first" : "second", pair.meshes[b],
-                                    planeStrainElasticMaterial(elasticity), conditions, degree, true);
+                                    elasticMaterial(elasticity, Plane::strain), conditions, degree, true);
         }
         addAxisymmetric(model, pair.sides[nonmortar], pair.sides[1 - nonmortar], kind);
         const auto [state, report] = run(model, 1, 1);
@@ -117,10 +117,10 @@ TEST(AxisymmetricContact, patchUnderUniaxialStress) {
       for (const double inner : {0.0, 1.0}) {
         Model model;
         model.bodies.emplace_back("upper", shakenSection(inner, 2, 0, 1, 5, 1),
-                                  planeStrainElasticMaterial({100, 0.1}),
+                                  elasticMaterial({100, 0.1}, Plane::strain),
                                   Conditions{{}, {{top, alongY, constant(-1)}}, {}}, 1, true);
         model.bodies.emplace_back("lower", shakenSection(inner, 2, -1, 1, 7, 2),
-                                  planeStrainElasticMaterial({300, 0.45}),
+                                  elasticMaterial({300, 0.45}, Plane::strain),
                                   Conditions{{{bottom, alongY, constant(0)}}, {}, {}}, 1, true);
         const ContactSide sides[] = {{0, bottom}, {1, top}};
         addAxisymmetric(model, sides[nonmortar], sides[1 - nonmortar], kind);
@@ -174,7 +174,7 @@ TEST(AxisymmetricContact, hertz) {
       const int cells = degree == 1 ? 40 : 20;
       const double indent = 0.04 * 0.04 * 1.02;
       model.bodies.emplace_back("ball", halfDiscMesh({{0, 0}, 1, 0.06, cells, true}),
-                                planeStrainElasticMaterial(ball),
+                                elasticMaterial(ball, Plane::strain),
                                 Conditions{{{2, alongY, growing(-indent)}}, {}, {}}, degree, true);
       model.bodies.emplace_back("plate",
                                 rectangleMesh({.lower = {0, -1.5},
@@ -184,7 +184,7 @@ TEST(AxisymmetricContact, hertz) {
                                                .focus = Point(0, 0),
                                                .grading = {60, 60}},
                                               Cut::both),
-                                planeStrainElasticMaterial(plate),
+                                elasticMaterial(plate, Plane::strain),
                                 Conditions{{{bottom, alongY, constant(0)}}, {}, {}}, degree, true);
       const ContactSide sides[] = {{0, 1}, {1, top}};
       addAxisymmetric(model, sides[nonmortar], sides[1 - nonmortar], CouplingKind::mortar);
@@ -236,7 +236,8 @@ TEST(AxisymmetricContact, flatPunch) {
         rectangleMesh(
             {.upper = {1, 1}, .cellsX = 12, .cellsY = 12, .focus = Point(1, 0), .grading = {30, 30}},
             Cut::both),
-        planeStrainElasticMaterial({1e8, 0}), Conditions{{{top, alongY, growing(-depth)}}, {}, {}}, 1, true);
+        elasticMaterial({1e8, 0}, Plane::strain), Conditions{{{top, alongY, growing(-depth)}}, {}, {}}, 1,
+        true);
     TriangleMesh block = rectangleMesh({.lower = {0, -size},
                                         .upper = {size, 0},
                                         .cellsX = 44,
@@ -244,7 +245,7 @@ TEST(AxisymmetricContact, flatPunch) {
                                         .focus = Point(1, 0),
                                         .grading = {600, 600}},
                                        Cut::both);
-    model.bodies.emplace_back("block", std::move(block), planeStrainElasticMaterial(soft),
+    model.bodies.emplace_back("block", std::move(block), elasticMaterial(soft, Plane::strain),
                               Conditions{{{bottom, alongX, pointForce(0)},
                                           {bottom, alongY, pointForce(1)},
                                           {right, alongX, pointForce(0)},

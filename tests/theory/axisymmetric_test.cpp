@@ -33,7 +33,7 @@ Model section(const Uniform& state, double inner, int degree) {
   const auto growing = [](double value) { return [value](double, double, double t) { return value * t; }; };
   Model model;
   model.bodies.emplace_back(
-      "ring", shakenSection(inner, outer, -1, 2, 5, 7), planeStrainElasticMaterial({young, poisson}),
+      "ring", shakenSection(inner, outer, -1, 2, 5, 7), elasticMaterial({young, poisson}, Plane::strain),
       Conditions{{{bottom, alongY, [state](double, double y, double t) { return state.d * y * t; }}},
                  {{right, alongX, growing(state.across())},
                   {left, alongX, growing(-state.across())},
@@ -82,8 +82,8 @@ TEST(Axisymmetric, uniformStatesAreExact) {
 TEST(Axisymmetric, nothingButTheMotionAlongTheAxisIsFree) {
   for (const double inner : {0.0, 1.0})
     for (const int degree : {1, 2}) {
-      const Body body("ring", shakenSection(inner, 2, 0, 1, 2, 3), planeStrainElasticMaterial({1, 0.3}), {},
-                      degree, true);
+      const Body body("ring", shakenSection(inner, 2, 0, 1, 2, 3), elasticMaterial({1, 0.3}, Plane::strain),
+                      {}, degree, true);
       const Matrix modes = rigidModes(body);
       ASSERT_EQ(modes.cols(), 1);
       EXPECT_EQ(describeRigidMotion(body, modes.col(0)), "translation along (0, 1)");
@@ -93,7 +93,7 @@ TEST(Axisymmetric, nothingButTheMotionAlongTheAxisIsFree) {
 TEST(Axisymmetric, meshesBeyondTheAxisAreRefused) {
   TriangleMesh mesh = square(0, 2);
   for (Point& x : mesh.vertices) x.x() -= 1e-15;  // rounding
-  const auto material = planeStrainElasticMaterial({1, 0.3});
+  const auto material = elasticMaterial({1, 0.3}, Plane::strain);
   EXPECT_NO_THROW(Body("ring", mesh, material, {}, 1, true));
   for (Point& x : mesh.vertices) x.x() -= 0.5;
   EXPECT_THROW(Body("ring", mesh, material, {}, 1, true), InputError);
@@ -131,7 +131,7 @@ TEST(Axisymmetric, lamesCylinder) {
         model.bodies.emplace_back(
             "tube",
             rectangleMesh({.lower = {1, 0}, .upper = {2, 1}, .cellsX = cells, .cellsY = cells}, Cut::both),
-            planeStrainElasticMaterial({young, nu}),
+            elasticMaterial({young, nu}, Plane::strain),
             Conditions{{{bottom, alongY, constant(0)}, {top, alongY, constant(0)}},
                        {{left, alongNormal, constant(-1)}},
                        {}},
@@ -173,7 +173,7 @@ TEST(Axisymmetric, lamesSphere) {
                                                : Point::Constant(NAN));
         }
       Model model;
-      model.bodies.emplace_back("sphere", std::move(mesh), planeStrainElasticMaterial({young, poisson}),
+      model.bodies.emplace_back("sphere", std::move(mesh), elasticMaterial({young, poisson}, Plane::strain),
                                 Conditions{{{3, alongY, constant(0)}}, {{1, alongNormal, constant(-1)}}, {}},
                                 orders.degree, true);
       const auto [state, report] = run(model, 1, 1);
@@ -206,7 +206,7 @@ TEST(Axisymmetric, barsFlowAsInThreeDimensions) {
   const double perzyna = 2.0 / 3 * (pressure - yieldStress) / (2 * viscosity);
   const double norton = 0.01 * std::pow(pressure / 2, 4);
   const std::pair<std::shared_ptr<const Material>, double> laws[] = {
-      {planeStrainPerzynaMaterial({young, poisson}, {viscosity, yieldStress}), perzyna},
+      {perzynaMaterial({young, poisson}, {viscosity, yieldStress}, Plane::strain), perzyna},
       {nortonMaterial({young, poisson}, {2, 0.01, 4}, Plane::axisymmetric), norton}};
   for (const auto& [material, rate] : laws) {
     const auto [state, report] = pulledBar(material, pressure, end, 4);
@@ -234,7 +234,7 @@ TEST(Axisymmetric, tubeCreepsAtTheKnownRate) {
     model.bodies.emplace_back(
         "tube",
         rectangleMesh({.lower = {1, 0}, .upper = {2, 0.25}, .cellsX = cells, .cellsY = cells / 4}, Cut::both),
-        planeStrainPerzynaMaterial({young, poisson}, {viscosity, yieldStress}),
+        perzynaMaterial({young, poisson}, {viscosity, yieldStress}, Plane::strain),
         Conditions{{{bottom, alongY, constant(0)}, {top, alongY, constant(0)}},
                    {{left, alongNormal, constant(-pressure)}},
                    {}},

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::exact_contact_test {
@@ -42,10 +42,7 @@ Measured hertz(double force, Plane plane, double block = blockYoung) {
 /// \param upTo  part of the half-width in which pressures are compared
 Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar, Plane plane = Plane::stress,
                     double young = blockYoung, int cellsOfBlock = 0, double upTo = 0.5) {
-  const auto material = [&](double stiffness) {
-    return plane == Plane::strain ? planeStrainElasticMaterial({stiffness, nu})
-                                  : elasticMaterial({stiffness, nu});
-  };
+  const auto material = [&](double stiffness) { return elasticMaterial({stiffness, nu}, plane); };
   constexpr int arc = 1;
   constexpr int flat = 2;
   constexpr double core = 10;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fem/tetrahedron.h"
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "mesh/shape.h"
 #include "theory/half_open_contact.h"
 
@@ -79,7 +79,7 @@ struct Extruded {
       return [=](const SpacePoint& x, double t) { return sign * t * exact.stress(x.x(), x.z())[component]; };
     };
     const int held = mirrored ? bottom : top;
-    return {mirrored ? "lower" : "upper", std::move(tetrahedra), spaceElasticMaterial(elasticity),
+    return {mirrored ? "lower" : "upper", std::move(tetrahedra), elasticMaterial(elasticity, Plane::none),
             SpaceConditions{{{held, spaceX, displacement(0)},
                              {held, spaceZ, displacement(1)},
                              {front, spaceY, steady(0)},

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <random>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::flow_bound_test {
@@ -99,7 +99,7 @@ TEST(FlowBound, isAboveTheDistanceFromMuchShorterSteps) {
     for (const double young : {3e11, 1e3, 50.0}) {
       const Elasticity elasticity{young, 0.3};
       const auto material = plane == Plane::strain
-                                ? planeStrainPerzynaMaterial(elasticity, noteLaw(Projection::elasticity))
+                                ? perzynaMaterial(elasticity, noteLaw(Projection::elasticity), Plane::strain)
                                 : perzynaMaterial(elasticity, noteLaw(Projection::frobenius));
       const Model model = compression(2, 3, material, CouplingKind::interpolation, upperBody);
       const Bounded coarse = boundedRun(model, {.end = 1, .steps = 16});

@@ -4,7 +4,7 @@
 #include <complex>
 
 #include "fem/element.h"
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::scenes {
@@ -74,7 +74,7 @@ class HalfOpenContact {
     const int held = mirrored_ ? bottom : top;
     return {mirrored_ ? "lower" : "upper",
             std::move(mesh),
-            plane_ == Plane::strain ? planeStrainElasticMaterial(elasticity_) : elasticMaterial(elasticity_),
+            elasticMaterial(elasticity_, plane_),
             {{{held, 0, displacement(0)}, {held, 1, displacement(1)}},
              {{right, 0, traction(0, 1)},
               {right, 1, traction(2, 1)},

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::limit_loads_test {
@@ -107,7 +107,7 @@ Forces punch(int cells, Cut cut) {
     if (mesh.boundaryLabels[e] == top && middle.x() < 1) mesh.boundaryLabels[e] = under;
   }
   Model model;
-  model.bodies.emplace_back("ground", std::move(mesh), planeStrainPerzynaMaterial(stiff, slow),
+  model.bodies.emplace_back("ground", std::move(mesh), perzynaMaterial(stiff, slow, Plane::strain),
                             Conditions{{{left, alongX, constant(0)},
                                         {right, alongX, constant(0)},
                                         {bottom, alongX, constant(0)},

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
 
@@ -65,7 +65,7 @@ Compressed exactCompression(double end) {
 }
 
 std::shared_ptr<const Material> blockMaterial() {
-  return planeStrainPerzynaMaterial(blockElasticity, blockLaw);
+  return perzynaMaterial(blockElasticity, blockLaw, Plane::strain);
 }
 
 double topOf(const Model& model, const State& state) {
@@ -140,8 +140,8 @@ TEST(PlaneStrainContact, elasticPatchPassesInOneIteration) {
   const Elasticity elasticity{3e11, 0.3};
   for (const int nonmortar : {upperBody, lowerBody})
     for (const auto& [upper, lower] : {std::pair(5, 7), std::pair(13, 4), std::pair(1, 3)}) {
-      const Model model =
-          compression(upper, lower, planeStrainElasticMaterial(elasticity), CouplingKind::mortar, nonmortar);
+      const Model model = compression(upper, lower, elasticMaterial(elasticity, Plane::strain),
+                                      CouplingKind::mortar, nonmortar);
       const auto [state, report] = run(model, 1, 1);
       ASSERT_EQ(report.status, Status::converged) << report.reason;
       EXPECT_EQ(report.iterations, 1);
@@ -160,7 +160,7 @@ TEST(PlaneStrainContact, stiffDataAreSolvedWithBothCouplings) {
     for (const int nonmortar : {upperBody, lowerBody})
       for (const int steps : {7, 20}) {
         const Model model =
-            compression(6, 16, planeStrainPerzynaMaterial(noteElasticity, {10, 1}), coupling, nonmortar);
+            compression(6, 16, perzynaMaterial(noteElasticity, {10, 1}, Plane::strain), coupling, nonmortar);
         const auto [state, report] = run(model, 1, steps);
         ASSERT_EQ(report.status, Status::converged) << report.reason;
         EXPECT_LE(report.worst.materialResidual, 1e-10);
@@ -190,7 +190,7 @@ TEST(PlaneStrainContact, penaltyDualityGivesNewtonsAnswer) {
 
 // While nothing flows the factor of elasticity serves every step.
 TEST(PlaneStrainContact, oneFactorServesWhileNothingFlows) {
-  const Model model = compression(3, 5, planeStrainPerzynaMaterial({100, 0.3}, {1, 1000}),
+  const Model model = compression(3, 5, perzynaMaterial({100, 0.3}, {1, 1000}, Plane::strain),
                                   CouplingKind::interpolation, upperBody);
   const Result result = run(model, 1, 6);
   ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
@@ -199,7 +199,7 @@ TEST(PlaneStrainContact, oneFactorServesWhileNothingFlows) {
 
 // Few steps that pass yield, the coarse side nonmortar: no step is cut.
 TEST(PlaneStrainContact, hardStepsAreFollowedAlongThePath) {
-  const Model model = compression(6, 16, planeStrainPerzynaMaterial(noteElasticity, {10, 1}),
+  const Model model = compression(6, 16, perzynaMaterial(noteElasticity, {10, 1}, Plane::strain),
                                   CouplingKind::interpolation, lowerBody);
   int hard = 0;
   for (const int steps : {3, 4, 5, 9, 11}) {
@@ -220,7 +220,7 @@ TEST(PlaneStrainContact, initialStressAcrossThePlaneIsGivenOrElastic) {
   TriangleMesh mesh = square(0, 4);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) mesh.regions[t] = t % 3 == 0 ? 7 : 8;
   Model model;
-  model.bodies.emplace_back("block", mesh, planeStrainElasticMaterial({100, 0.3}), conditions);
+  model.bodies.emplace_back("block", mesh, elasticMaterial({100, 0.3}, Plane::strain), conditions);
   const Matrix stress = model.bodies[0].initialStress();
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     EXPECT_NEAR(stress(3, static_cast<Eigen::Index>(t)), t % 3 == 0 ? -1.5 : -0.6, 1e-15);
@@ -236,7 +236,7 @@ TEST(PlaneStrainContact, initialStressAcrossThePlaneIsGivenOrElastic) {
 
 TEST(PlaneStrainContact, threadsChangeNoBit) {
   // Enough triangles that threads are used.
-  const Model model = compression(61, 67, planeStrainPerzynaMaterial(noteElasticity, {10, 1}),
+  const Model model = compression(61, 67, perzynaMaterial(noteElasticity, {10, 1}, Plane::strain),
                                   CouplingKind::interpolation, upperBody);
   SolverOptions options;
   options.threads = 1;
@@ -254,7 +254,7 @@ TEST(PlaneStrainContact, threadsChangeNoBit) {
 TEST(PlaneStrainContact, unitsOfPowersOfTwoChangeNoBit) {
   const auto solve = [](double stress) {
     const Function load = [=](double, double, double t) { return -10 * stress * t; };
-    const auto material = planeStrainPerzynaMaterial({stress * 3e11, 0.3}, {10 * stress, stress});
+    const auto material = perzynaMaterial({stress * 3e11, 0.3}, {10 * stress, stress}, Plane::strain);
     Body upper("upper", square(0, 5), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
     Body lower("lower", square(-1, 8), material,
                {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});

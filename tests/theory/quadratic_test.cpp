@@ -7,7 +7,7 @@
 
 #include "fem/element.h"
 #include "fem/error_estimate.h"
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::quadratic_test {
@@ -248,7 +248,7 @@ Model ring(int cells, bool curved) {
       mesh.edgeMiddles.push_back(middle);
     }
   Model model;
-  model.bodies.emplace_back("ring", std::move(mesh), planeStrainElasticMaterial({1, 0.3}),
+  model.bodies.emplace_back("ring", std::move(mesh), elasticMaterial({1, 0.3}, Plane::strain),
                             Conditions{{{3, alongNormal, constant(0)}, {4, alongNormal, constant(0)}},
                                        {{1, alongNormal, constant(-1)}},
                                        {}},

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 #include "unit/enumerated_contact.h"
 
@@ -50,8 +50,8 @@ inline RandomLine randomLine(unsigned seed, int most, const RandomUnits& units =
                                           Projection::compliance};
     const Viscoplasticity flow{0.1 * units.stress, (0.5 + uniform()) * units.stress,
                                projections[std::max(law - 2, 0)]};
-    if (law < 2) return ring ? planeStrainElasticMaterial(elasticity) : elasticMaterial(elasticity);
-    return ring ? planeStrainPerzynaMaterial(elasticity, flow) : perzynaMaterial(elasticity, flow);
+    if (law < 2) return ring ? elasticMaterial(elasticity, Plane::strain) : elasticMaterial(elasticity);
+    return ring ? perzynaMaterial(elasticity, flow, Plane::strain) : perzynaMaterial(elasticity, flow);
   };
   constexpr double E = 100;
   const double press = 0.5 * uniform() * units.stress;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "material/deviatoric.h"
 #include "material/parts.h"
-#include "material/plane_strain.h"
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
 
@@ -56,9 +56,9 @@ TEST(Regions, columnsOfDifferentMaterialsAreAsAlone) {
 }
 
 TEST(Regions, columnsAreAsAloneInPlaneStrain) {
-  expectColumnsAsAlone({planeStrainElasticMaterial({100, 0.2}),
-                        planeStrainPerzynaMaterial({100, 0.3}, {1, 1}),
-                        planeStrainPerzynaMaterial({300, 0.1}, {5, 2})});
+  expectColumnsAsAlone({elasticMaterial({100, 0.2}, Plane::strain),
+                        perzynaMaterial({100, 0.3}, {1, 1}, Plane::strain),
+                        perzynaMaterial({300, 0.1}, {5, 2}, Plane::strain)});
 }
 
 /// Both squares of the compression test with a stress from the start and a constant load.

@@ -1,7 +1,7 @@
 // Factors in single precision, corrected, against those in double precision.
 #include <gtest/gtest.h>
 
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "mesh/shape.h"
 #include "time/march.h"
 
@@ -43,8 +43,8 @@ const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
 /// A block on another one, pressed at one side so that it lifts off at the other; contact alone holds it.
 Model pressedBlocks(bool flows) {
   const SpaceDatum load = [](const SpacePoint& x, double t) { return -t * (x.x() < 0.5 ? 1 : 0); };
-  const auto material = flows ? spacePerzynaMaterial({1000, 0.3}, {10, 0.5, Projection::elasticity})
-                              : spaceElasticMaterial({1000, 0.3});
+  const auto material = flows ? perzynaMaterial({1000, 0.3}, {10, 0.5, Projection::elasticity}, Plane::none)
+                              : elasticMaterial({1000, 0.3}, Plane::none);
   Model model;
   model.bodies.emplace_back(
       "upper", cuboidMesh({{0.2, 0.2, 0}, {0.8, 0.8, 0.3}, {6, 6, 3}}), material,
@@ -81,7 +81,7 @@ TEST(SinglePrecision, isGivenUpWhereItDoesNotDo) {
   const SpaceDatum load = [](const SpacePoint&, double t) { return t; };
   Model model;
   model.bodies.emplace_back(
-      "bar", cuboidMesh({{0, 0, 0}, {400, 1, 1}, {400, 1, 1}}), spaceElasticMaterial({1000, 0.3}),
+      "bar", cuboidMesh({{0, 0, 0}, {400, 1, 1}, {400, 1, 1}}), elasticMaterial({1000, 0.3}, Plane::none),
       SpaceConditions{{{left, spaceX, zero}, {left, spaceY, zero}, {left, spaceZ, zero}},
                       {{top, spaceZ, load}}},
       1);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "theory/extruded_contact.h"
 #include "time/space_error.h"
 
@@ -85,10 +85,11 @@ TEST(SpaceContact, compressionIsExact) {
     std::vector<SpaceCondition> held = rollers;
     held.push_back({bottom, spaceZ, steady(0)});
     model.bodies.emplace_back("upper", cuboidMesh({{0, 0, 0}, {1, 1, 1}, {3, 4, 2}}),
-                              spacePerzynaMaterial(elasticity, law),
+                              perzynaMaterial(elasticity, law, Plane::none),
                               SpaceConditions{rollers, {{top, spaceZ, growing(-10)}}}, degree);
     model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {4, 3, 3}}),
-                              spacePerzynaMaterial(elasticity, law), SpaceConditions{held, {}}, degree);
+                              perzynaMaterial(elasticity, law, Plane::none), SpaceConditions{held, {}},
+                              degree);
     addInterface(model, {{0, bottom}, {1, top}, coupling});
     constexpr int steps = 10;
     const auto [state, report] = scenes::run(model, 1, steps);
@@ -122,7 +123,7 @@ TEST(SpaceContact, threadsChangeNoBit) {
   std::vector<SpaceCondition> held = rollers;
   held.push_back({bottom, spaceZ, steady(0)});
   const auto pressed = [](const SpacePoint& x, double t) { return -10 * t * (1 + x.x() * x.y()); };
-  const auto material = spacePerzynaMaterial({1000, 0.3}, {10, 1});
+  const auto material = perzynaMaterial({1000, 0.3}, {10, 1}, Plane::none);
   model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {6, 6, 6}}), material,
                             SpaceConditions{rollers, {{top, spaceZ, pressed}}}, 2);
   model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {7, 7, 7}}), material,
@@ -194,15 +195,15 @@ TEST(SpaceContact, lawsOfSpaceAreThoseOfPlaneStrain) {
     expectAlike(*plane, *space, elasticity.young);
   };
   constexpr Viscoplasticity perzyna{10, 1};
-  expect("Perzyna", planeStrainPerzynaMaterial(elasticity, perzyna),
-         spacePerzynaMaterial(elasticity, perzyna));
+  expect("Perzyna", perzynaMaterial(elasticity, perzyna, Plane::strain),
+         perzynaMaterial(elasticity, perzyna, Plane::none));
   constexpr NortonCreep norton{2, 0.1, 4};
   expect("Norton", nortonMaterial(elasticity, norton, Plane::strain),
-         spaceNortonMaterial(elasticity, norton));
+         nortonMaterial(elasticity, norton, Plane::none));
   for (const double relaxed : {0.0, 0.4})
     expect("relaxed " + std::to_string(relaxed),
            viscoelasticMaterial(elasticity, {0.5, relaxed}, Plane::strain),
-           spaceViscoelasticMaterial(elasticity, {0.5, relaxed}));
+           viscoelasticMaterial(elasticity, {0.5, relaxed}, Plane::none));
   for (const double hardening : {0.0, 50.0})
     for (const double reference : {0.0, 2.0}) {
       Overstress law;
@@ -211,7 +212,8 @@ TEST(SpaceContact, lawsOfSpaceAreThoseOfPlaneStrain) {
       law.exponent = 3;
       law.kinematicHardening = hardening;
       expect("overstress " + std::to_string(reference) + ", " + std::to_string(hardening),
-             overstressMaterial(elasticity, law, Plane::strain), spaceOverstressMaterial(elasticity, law));
+             overstressMaterial(elasticity, law, Plane::strain),
+             overstressMaterial(elasticity, law, Plane::none));
     }
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "material/stress.h"
 #include "mesh/shape.h"
 #include "time/march.h"
@@ -53,7 +53,7 @@ Body hydrostatic(const std::string& name, TetrahedronMesh mesh, const std::vecto
       conditions.displacements.push_back(
           {label, c, [=](const SpacePoint& x, double t) { return t * strain * x[c]; }});
   for (const int label : pressed) conditions.tractions.push_back({label, spaceNormal, constant(-pressure)});
-  return {name, std::move(mesh), spaceElasticMaterial(elasticity), std::move(conditions), degree};
+  return {name, std::move(mesh), elasticMaterial(elasticity, Plane::none), std::move(conditions), degree};
 }
 
 struct Case {
@@ -209,7 +209,7 @@ TEST(SpacePatch, freeMotionsAreNamed) {
     Model both;
     SpaceConditions conditions{std::move(held), {{top, spaceNormal, constant(-pressure)}}};
     both.bodies.emplace_back("upper", block({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, 1, same),
-                             spaceElasticMaterial(elasticity), conditions, 1);
+                             elasticMaterial(elasticity, Plane::none), conditions, 1);
     both.bodies.push_back(
         hydrostatic("lower", block({{0, 0, -1}, {1, 1, 0}, {3, 3, 2}}, 2, same), {bottom}, {}, 1));
     addInterface(both, {{0, bottom}, {1, top}, CouplingKind::weighted});

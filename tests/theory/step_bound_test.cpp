@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/random_scene.h"
 #include "theory/refined_model.h"
 #include "time/step_taker.h"
@@ -46,8 +46,7 @@ TEST(StepBound, isAboveAndNearTheErrorOfTheNotesTest) {
       for (const auto& [upper, lower] : {std::array{6, 16}, std::array{16, 6}}) {
         const Elasticity elasticity{young, 0.3};
         const Viscoplasticity law = noteLaw(Projection::frobenius);
-        const auto material = plane == Plane::strain ? planeStrainPerzynaMaterial(elasticity, law)
-                                                     : perzynaMaterial(elasticity, law);
+        const auto material = perzynaMaterial(elasticity, law, plane);
         const Model model = compression(upper, lower, material, CouplingKind::interpolation, upperBody);
         const auto [state, report] = run(model, 1, 1);
         ASSERT_EQ(report.status, Status::converged);
@@ -160,10 +159,9 @@ TEST(StepBound, isAboveTheErrorOfRandomScenes) {
       const Viscoplasticity law{weight / 2 * std::pow(10, -2.0 + random.below(5)),
                                 0.03 * std::exp(random.normal()), Projection::frobenius};
       if (random.below(4) == 0)
-        materials.push_back(strain ? planeStrainElasticMaterial(elasticity) : elasticMaterial(elasticity));
+        materials.push_back(elasticMaterial(elasticity, strain ? Plane::strain : Plane::stress));
       else
-        materials.push_back(strain ? planeStrainPerzynaMaterial(elasticity, law)
-                                   : perzynaMaterial(elasticity, law));
+        materials.push_back(perzynaMaterial(elasticity, law, strain ? Plane::strain : Plane::stress));
     }
     const Model model = withMaterials(RandomScene(seed).model(), materials);
     State state = initialState(model);

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/scenes.h"
 
 namespace mortier::thick_cylinder_test {
@@ -59,7 +59,7 @@ TEST(ThickCylinder, tendsToLame) {
     std::vector<double> errors;
     double s33 = 0;
     for (const int cells : {4, 8, 16}) {
-      const Model model = quarterRing(cells, pressure, planeStrainElasticMaterial({E, nu}));
+      const Model model = quarterRing(cells, pressure, elasticMaterial({E, nu}, Plane::strain));
       const auto [state, report] = run(model, 1, 1);
       ASSERT_EQ(report.status, Status::converged) << report.reason;
       EXPECT_EQ(report.iterations, 1);
@@ -110,8 +110,8 @@ TEST(ThickCylinder, steadyCreepGoesAtTheKnownRate) {
   std::vector<double> h;
   std::vector<double> errors;
   for (const int cells : {4, 8, 16}) {
-    const Model model =
-        quarterRing(cells, creepPressure, planeStrainPerzynaMaterial({young, nu}, {viscosity, yieldStress}));
+    const Model model = quarterRing(cells, creepPressure,
+                                    perzynaMaterial({young, nu}, {viscosity, yieldStress}, Plane::strain));
     const Result half = run(model, time / 2, 2);
     const Result whole = run(model, time, 4);
     ASSERT_EQ(whole.report.status, Status::converged) << whole.report.reason;
@@ -144,7 +144,7 @@ TEST(ThickCylinder, steadyCreepGoesAtTheKnownRate) {
 TEST(ThickCylinder, limitPressureDividesRestFromFlow) {
   for (const double excess : {-0.05, 0.05}) {
     const Model model = quarterRing(8, limitPressure() * (1 + excess),
-                                    planeStrainPerzynaMaterial({100, 0.3}, {viscosity, yieldStress}));
+                                    perzynaMaterial({100, 0.3}, {viscosity, yieldStress}, Plane::strain));
     const Result before = run(model, 1e6, 2);
     const Result after = run(model, 2e6, 4);
     ASSERT_EQ(after.report.status, Status::converged) << after.report.reason;

@@ -173,16 +173,12 @@ inline std::shared_ptr<const Material> materialOf(const Case& of, Random& random
       return own(rateLaw(OwnRate<true>{1 / (3 * of.viscosity), of.stiffness * random.in(0.01, 0.3)}));
     case 8: {
       const double across = of.stiffness * random.in(0.3, 1);
-      return anisotropicMaterial(
-          anisotropyOf(Orthotropy{{of.stiffness, across, across}, {0.3, 0.2, 0.2}, {0.35 * of.stiffness}},
-                       of.plane),
-          Viscoplasticity{of.viscosity, 1, Projection::frobenius}, of.plane);
+      const Anisotropy wood = anisotropyOf(
+          Orthotropy{{of.stiffness, across, across}, {0.3, 0.2, 0.2}, {0.35 * of.stiffness}}, of.plane);
+      return anisotropicMaterial(wood, perzynaMaterial(stiffestOf(wood), {of.viscosity, 1}, of.plane));
     }
-    default: {
-      const Viscoplasticity law{of.viscosity, 1, Projection::frobenius};
-      return of.plane == Plane::stress ? perzynaMaterial(elasticity, law)
-                                       : planeStrainPerzynaMaterial(elasticity, law);
-    }
+    default:
+      return perzynaMaterial(elasticity, {of.viscosity, 1}, of.plane);
   }
 }
 

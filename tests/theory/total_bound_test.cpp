@@ -9,7 +9,7 @@
 #include <iostream>
 
 #include "bound/energy_bound.h"
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "theory/random_scene.h"
 #include "theory/refined_model.h"
 
@@ -181,9 +181,8 @@ TEST(TotalBound, isAboveTheDistanceFromFinerMeshesAndShorterSteps) {
         const Elasticity elasticity{young, 0.3};
         const Viscoplasticity law = noteLaw(Projection::frobenius);
         const bool strain = plane == Plane::strain;
-        const auto flows =
-            strain ? planeStrainPerzynaMaterial(elasticity, law) : perzynaMaterial(elasticity, law);
-        const auto elastic = strain ? planeStrainElasticMaterial(elasticity) : elasticMaterial(elasticity);
+        const auto flows = perzynaMaterial(elasticity, law, strain ? Plane::strain : Plane::stress);
+        const auto elastic = elasticMaterial(elasticity, strain ? Plane::strain : Plane::stress);
         const Function load = [](double x, double, double t) { return -t * (5 + 3 * x); };
         Body upper("upper", square(0, 2), flows, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
         Body lower("lower", square(-1, 3), elastic,
@@ -264,8 +263,7 @@ TEST(TotalBound, isAboveTheDistanceInRandomScenes) {
       const Elasticity elasticity{std::exp(random.normal()), 0.1 * random.below(5)};
       const Viscoplasticity law{std::pow(10, -2.0 + random.below(4)), 0.03 * std::exp(random.normal()),
                                 Projection::frobenius};
-      materials.push_back(strain ? planeStrainPerzynaMaterial(elasticity, law)
-                                 : perzynaMaterial(elasticity, law));
+      materials.push_back(perzynaMaterial(elasticity, law, strain ? Plane::strain : Plane::stress));
       model.bodies.emplace_back(body.name(), body.mesh(), materials.back(), body.conditions());
     }
     for (const ContactInterface& interface : elastic.interfaces) addInterface(model, interface.pair());

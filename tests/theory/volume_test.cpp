@@ -9,8 +9,8 @@
 
 #include "fem/element.h"
 #include "fem/error_estimate.h"
+#include "material/deviatoric.h"
 #include "material/overstress.h"
-#include "material/plane_strain.h"
 #include "theory/scenes.h"
 
 namespace mortier::volume_test {
@@ -23,7 +23,7 @@ double cook(int n, Cut cut, int degree, bool averaged) {
   Model model;
   model.bodies.emplace_back(
       "membrane", quadrilateralMesh({{Point(0, 0), {48, 44}, {48, 60}, {0, 44}}, n, n}, cut),
-      planeStrainElasticMaterial(rubber),
+      elasticMaterial(rubber, Plane::strain),
       Conditions{{{4, alongX, constant(0)}, {4, alongY, constant(0)}}, {{2, alongY, constant(1.0 / 16)}}, {}},
       degree, false, averaged);
   const Result result = run(model, 1, 1);
@@ -131,7 +131,7 @@ double punch(int cells, Cut cut, int degree, bool averaged, double shaken) {
   for (Point& x : mesh.vertices)
     if (x.x() != 0 && x.x() != 4 && x.y() != -2 && x.y() != 0) x += Point(shift(random), shift(random));
   Model model;
-  model.bodies.emplace_back("ground", std::move(mesh), planeStrainPerzynaMaterial({1000, 0.3}, {1e-4, 1}),
+  model.bodies.emplace_back("ground", std::move(mesh), perzynaMaterial({1000, 0.3}, {1e-4, 1}, Plane::strain),
                             Conditions{{{left, alongX, constant(0)},
                                         {right, alongX, constant(0)},
                                         {bottom, alongX, constant(0)},
@@ -243,7 +243,7 @@ Estimated estimatedOn(int cells, int degree, bool averaged, double poisson) {
                                                     : s[2] / std::numbers::sqrt2;
                                     }});
   Model model;
-  model.bodies.emplace_back("square", std::move(mesh), planeStrainElasticMaterial(exact.elasticity),
+  model.bodies.emplace_back("square", std::move(mesh), elasticMaterial(exact.elasticity, Plane::strain),
                             std::move(conditions), degree, false, averaged);
   const Result result = run(model, 1, 1);
   EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
@@ -279,7 +279,8 @@ TEST(AveragedVolume, patchTestAcrossContact) {
       for (Point& x : mesh.vertices)
         if (x.x() != 0 && x.x() != 1 && x.y() != lower && x.y() != lower + 1)
           x += Point(shift(random), shift(random));
-      return Body(name, std::move(mesh), planeStrainElasticMaterial(rubber), conditions, degree, false, true);
+      return Body(name, std::move(mesh), elasticMaterial(rubber, Plane::strain), conditions, degree, false,
+                  true);
     };
     const Model model =
         contactModel(block("upper", 0, 5, {{{left, 0, constant(0)}}, {{top, 1, constant(-0.01)}}, {}}),
@@ -311,7 +312,7 @@ TEST(AveragedVolume, freeThermalStrainIsNoStress) {
       conditions.expansion.row(0).setConstant(std::numbers::sqrt2 * 1e-3);
       conditions.expansion.row(3).setConstant(1e-3);
       Model model;
-      model.bodies.emplace_back("plate", std::move(mesh), planeStrainElasticMaterial(rubber), conditions,
+      model.bodies.emplace_back("plate", std::move(mesh), elasticMaterial(rubber, Plane::strain), conditions,
                                 degree, false, averaged);
       const Result result = run(model, 1, 1);
       ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;

@@ -8,9 +8,9 @@
 #include <mutex>
 
 #include "material/anisotropy.h"
+#include "material/deviatoric.h"
 #include "material/parts.h"
 #include "material/perzyna.h"
-#include "material/plane_strain.h"
 #include "material/viscoelastic.h"
 #include "mesh/generate.h"
 #include "time/march.h"
@@ -50,15 +50,12 @@ constexpr Case cases[] = {{"plain"},
 std::shared_ptr<const Material> materialOf(const Case& each, int points) {
   const Elasticity elasticity{100, 0.3};
   const Viscoplasticity flow{10, 0.05, Projection::elasticity};
-  if (each.plane != Plane::stress) return planeStrainPerzynaMaterial(elasticity, flow);
+  if (each.plane != Plane::stress) return perzynaMaterial(elasticity, flow, Plane::strain);
   if (each.turned) {
-    const Viscoplasticity frobenius{10, 0.05, Projection::frobenius};
+    const Anisotropy wood = anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, {30}}, Plane::stress);
     std::vector<double> angles;
     for (int i = 0; i < points; ++i) angles.push_back(0.1 * i);
-    return turnedMaterial(
-        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, {30}}, Plane::stress),
-                            frobenius, Plane::stress),
-        angles);
+    return anisotropicMaterial(wood, perzynaMaterial(stiffestOf(wood), {10, 0.05}), angles);
   }
   if (!each.regions) return perzynaMaterial(elasticity, flow);
   std::vector<int> materialOf;

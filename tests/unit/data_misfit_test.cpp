@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "fem/body.h"
+#include "material/deviatoric.h"
 #include "material/elasticity.h"
-#include "material/plane_strain.h"
 #include "scene/expression.h"
 
 namespace mortier::data_misfit_test {
@@ -159,7 +159,7 @@ Body square(Conditions conditions, int degree, bool axisymmetric = false) {
   mesh.boundaryLabels = {3};
   return {"square",
           std::move(mesh),
-          axisymmetric ? planeStrainElasticMaterial({1, 0.3}) : elasticMaterial({1, 0.3}),
+          axisymmetric ? elasticMaterial({1, 0.3}, Plane::strain) : elasticMaterial({1, 0.3}),
           std::move(conditions),
           degree,
           axisymmetric};

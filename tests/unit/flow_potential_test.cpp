@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "material/deviatoric.h"
 #include "material/parts.h"
-#include "material/plane_strain.h"
 #include "theory/scenes.h"
 #include "unit/enumerated_contact.h"
 
@@ -43,7 +43,7 @@ TEST(FlowPotential, excessIsThatOfThePotential) {
   constexpr double viscosity = 3;
   const Viscoplasticity law{viscosity, 0.8, Projection::frobenius};
   for (const auto& material :
-       {perzynaMaterial(elasticity, law), planeStrainPerzynaMaterial(elasticity, law)}) {
+       {perzynaMaterial(elasticity, law), perzynaMaterial(elasticity, law, Plane::strain)}) {
     const Body body = blockOf(material);
     const std::vector<int> parents{0, 1, 2, 3};
     FlowPotential potential(body, parents);

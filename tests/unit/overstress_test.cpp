@@ -191,7 +191,7 @@ TEST(Overstress, isPerzynasLawInPlaneStrain) {
   Overstress law{1.3};
   law.setViscosity(4);
   const auto one = overstressMaterial(elasticity, law, Plane::strain);
-  const auto other = planeStrainPerzynaMaterial(elasticity, {4, 1.3});
+  const auto other = perzynaMaterial(elasticity, {4, 1.3}, Plane::strain);
   std::mt19937 random(7);
   for (int i = 0; i < 20; ++i) {
     const Vector4d s = randomStress4(random, 2, 1);

@@ -6,10 +6,10 @@
 #include <random>
 
 #include "base/error.h"
+#include "material/deviatoric.h"
 #include "material/interior_path.h"
 #include "material/norton.h"
 #include "material/rate_law.h"
-#include "material/space.h"
 #include "material/viscoelastic.h"
 
 namespace mortier::own_material_test {
@@ -100,7 +100,7 @@ OwnLaw named(std::shared_ptr<const RateLaw> law) {
 constexpr Elasticity elasticity{200, 0.3};
 
 std::shared_ptr<const Material> builtInNorton(const NortonCreep& creep, Plane plane) {
-  return plane == Plane::none ? spaceNortonMaterial(elasticity, creep)
+  return plane == Plane::none ? nortonMaterial(elasticity, creep, Plane::none)
                               : nortonMaterial(elasticity, creep, plane);
 }
 
@@ -127,12 +127,12 @@ std::vector<Case> cases() {
     const bool space = plane == Plane::none;
     const std::string in = space ? " in space" : " in plane strain";
     all.push_back({"Perzyna" + in, ownMaterial(elasticity, named(rateLaw(OwnPerzyna{perzyna})), plane),
-                   space ? spacePerzynaMaterial(elasticity, perzyna)
-                         : planeStrainPerzynaMaterial(elasticity, perzyna)});
+                   space ? perzynaMaterial(elasticity, perzyna, Plane::none)
+                         : perzynaMaterial(elasticity, perzyna, Plane::strain)});
     for (const double fraction : {0.0, 0.4}) {
       const Viscoelasticity law{0.7, fraction};
       all.push_back({"solid" + in, ownMaterial(elasticity, named(rateLaw(OwnSolid{elasticity, law})), plane),
-                     space ? spaceViscoelasticMaterial(elasticity, law)
+                     space ? viscoelasticMaterial(elasticity, law, Plane::none)
                            : viscoelasticMaterial(elasticity, law, plane)});
     }
   }

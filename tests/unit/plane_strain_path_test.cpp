@@ -1,5 +1,5 @@
 // Plane strain along the two ways round a hard step: the regularised law and the interior path.
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ TEST(PlaneStrain, regularisedLawEndsAtTheLaw) {
   const double weight = 3;
   const Tensors law{elasticity, {10, 1}, weight};
   for (const bool flowing : {false, true}) {
-    const auto material =
-        flowing ? planeStrainPerzynaMaterial(elasticity, {10, 1}) : planeStrainElasticMaterial(elasticity);
+    const auto material = flowing ? perzynaMaterial(elasticity, {10, 1}, Plane::strain)
+                                  : elasticMaterial(elasticity, Plane::strain);
     const Matrix stress0 = randomStress4(random, 0.5, 0.2);
     const Matrix strain = randomStress4(random, 0.05, 0.01);
     Matrix stress = stress0;
@@ -54,7 +54,7 @@ TEST(PlaneStrain, pathEndsAtTheRadialReturn) {
     const Elasticity elasticity{3e11, 0.3};
     const double weight = 2 * 10 * thetaE * 1.3 / 3e11;
     const Tensors law{elasticity, {10, 1}, weight};
-    const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+    const auto material = perzynaMaterial(elasticity, {10, 1}, Plane::strain);
     Matrix stress0(4, points);
     Matrix trial(4, points);
     for (int i = 0; i < points; ++i) {
@@ -89,7 +89,7 @@ TEST(PlaneStrain, pathModuliAreTheDerivativeOfItsSteps) {
   std::mt19937 random(5);
   for (const double thetaE : {1e-3, 1.0, 1e8}) {
     const double weight = 2 * 10 * thetaE * 1.3 / 3e11;
-    const auto material = planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1});
+    const auto material = perzynaMaterial({3e11, 0.3}, {10, 1}, Plane::strain);
     const Matrix stress0 = randomStress4(random, 0.5, 0.2);
     Matrix strain;
     material->elasticStrain(randomStress4(random, 3, 1), strain);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "material/stress.h"
 #include "unit/one_point.h"
 

@@ -1,4 +1,4 @@
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(PlaneStrain, elasticityIsThatOfThreeDimensions) {
   const Tensors exact{elasticity, {}, 0};
   std::mt19937 random(1);
   for (const auto& material :
-       {planeStrainElasticMaterial(elasticity), planeStrainPerzynaMaterial(elasticity, {10, 1e6})}) {
+       {elasticMaterial(elasticity, Plane::strain), perzynaMaterial(elasticity, {10, 1e6}, Plane::strain)}) {
     EXPECT_EQ(material->components(), 4);
     const Vector4d zero = Vector4d::Zero();
     Vector4d strain = 0.01 * randomStress4(random, 1, 0.3);
@@ -49,7 +49,7 @@ TEST(PlaneStrain, tangentMatchesFiniteDifference) {
         const Elasticity elasticity{3e11, nu};
         const double weight = 2 * 10 * thetaE * (1 + nu) / 3e11;
         const Tensors law{elasticity, {10, 1}, weight};
-        const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+        const auto material = perzynaMaterial(elasticity, {10, 1}, Plane::strain);
         const Vector4d s0 = randomStress4(random, 0.5, 0.1);
         // A trial beyond yield such that the stress is beyond it by `beyond`; a strain with a part across the
         // plane, as schemes of several stages have.
@@ -91,7 +91,7 @@ TEST(PlaneStrain, tangentMatchesFiniteDifference) {
 // On the surface itself, where the first rounded stress is not inside, the tangent is that of the outer side.
 TEST(PlaneStrain, onTheYieldSurfaceItFlows) {
   std::mt19937 random(5);
-  const auto material = planeStrainPerzynaMaterial({100, 0.3}, {10, 1});
+  const auto material = perzynaMaterial({100, 0.3}, {10, 1}, Plane::strain);
   const double weight = 1e6;  // theta e = 4e6
   for (int k = 0; k < 50; ++k) {
     const Vector4d s = randomStress4(random, 1, 2);
@@ -119,7 +119,7 @@ TEST(PlaneStrain, newtonEndsAtTheRadialReturn) {
         const Elasticity elasticity{100, 0.3};
         const double weight = 2 * 10 * thetaE * 1.3 / 100;
         const Tensors law{elasticity, {10, 1}, weight};
-        const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+        const auto material = perzynaMaterial(elasticity, {10, 1}, Plane::strain);
         const Vector4d s0 = randomStress4(random, k % 2 == 0 ? 0.5 : 1.2, 0.1);
         const Vector4d strain = randomStress4(random, size, 0.1 * size);
         const Vector4d exact =
@@ -140,7 +140,7 @@ TEST(PlaneStrain, theProjectionHasNoMeaning) {
   const Vector4d s = randomStress4(random, 3, 1);
   const Vector4d strain = randomStress4(random, 1e-11, 0);
   const auto of = [&](Projection projection) {
-    return lineariseAt(*planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1, projection}), 0.01, s, strain, s);
+    return lineariseAt(*perzynaMaterial({3e11, 0.3}, {10, 1, projection}, Plane::strain), 0.01, s, strain, s);
   };
   for (const Projection projection : projections) {
     EXPECT_EQ(of(projection).predictor, of(Projection::frobenius).predictor);
@@ -165,7 +165,7 @@ TEST(PlaneStrain, theProjectionHasNoMeaning) {
 // with z = k E/(2 lambda (1 + nu)); the pressure stays.
 TEST(PlaneStrain, relaxationFollowsItsClosedForm) {
   const double nu = 0.3;
-  const auto material = planeStrainPerzynaMaterial({2 * 2 * 10 * (1 + nu), nu}, {10, 1});
+  const auto material = perzynaMaterial({2 * 2 * 10 * (1 + nu), nu}, {10, 1}, Plane::strain);
   const double errors[][2] = {{10, 2.617e-2}, {40, 6.710e-3}, {160, 1.688e-3}};
   std::mt19937 random(2);
   const Vector4d start = randomStress4(random, 2, 5);
@@ -181,7 +181,7 @@ TEST(PlaneStrain, relaxationFollowsItsClosedForm) {
 
 TEST(PlaneStrain, pressureNeverFlowsAndRatesAreDeviators) {
   std::mt19937 random(4);
-  const auto material = planeStrainPerzynaMaterial({100, 0.3}, {10, 1});
+  const auto material = perzynaMaterial({100, 0.3}, {10, 1}, Plane::strain);
   const Vector4d pressure = 1e6 * Vector4d(std::numbers::sqrt2, 0, 0, 1);
   EXPECT_FALSE(material->flows(pressure, 0));
   const Vector4d s = randomStress4(random, 3, 7);
@@ -199,7 +199,7 @@ TEST(PlaneStrain, pointsOfABatchAreIndependent) {
   std::mt19937 random(3);
   const Elasticity elasticity{3e11, 0.3};
   for (const auto& material :
-       {planeStrainPerzynaMaterial(elasticity, {10, 1}), planeStrainElasticMaterial(elasticity)}) {
+       {perzynaMaterial(elasticity, {10, 1}, Plane::strain), elasticMaterial(elasticity, Plane::strain)}) {
     Matrix stress0(4, points);
     Matrix stress(4, points);
     for (int i = 0; i < points; ++i) {
@@ -245,8 +245,8 @@ TEST(PlaneStrain, unitsOfPowersOfTwoChangeNoBit) {
   std::mt19937 random(13);
   for (const double stress : {0x1p-37, 0x1p+20})
     for (const double time : {0x1p-11, 0x1p+17}) {
-      const auto material = planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1});
-      const auto scaled = planeStrainPerzynaMaterial({stress * 3e11, 0.3}, {stress * time * 10, stress});
+      const auto material = perzynaMaterial({3e11, 0.3}, {10, 1}, Plane::strain);
+      const auto scaled = perzynaMaterial({stress * 3e11, 0.3}, {stress * time * 10, stress}, Plane::strain);
       const Vector4d s0 = randomStress4(random, 1.5, 2);
       const Vector4d strain = randomStress4(random, 1e-3, 1e-4);
       for (const double size : {0.5, 1.0 + 1e-9, 7.0})
@@ -262,10 +262,10 @@ TEST(PlaneStrain, unitsOfPowersOfTwoChangeNoBit) {
 }
 
 TEST(PlaneStrain, wrongConstantsAreNamed) {
-  EXPECT_THROW(planeStrainElasticMaterial({0, 0.3}), InputError);
-  EXPECT_THROW(planeStrainElasticMaterial({1, 0.5}), InputError);
-  EXPECT_THROW(planeStrainPerzynaMaterial({1, 0.3}, {0, 1}), InputError);
-  EXPECT_THROW(planeStrainPerzynaMaterial({1, 0.3}, {1, -2}), InputError);
+  EXPECT_THROW(elasticMaterial({0, 0.3}, Plane::strain), InputError);
+  EXPECT_THROW(elasticMaterial({1, 0.5}, Plane::strain), InputError);
+  EXPECT_THROW(perzynaMaterial({1, 0.3}, {0, 1}, Plane::strain), InputError);
+  EXPECT_THROW(perzynaMaterial({1, 0.3}, {1, -2}, Plane::strain), InputError);
 }
 
 }  // namespace mortier::plane_strain_test

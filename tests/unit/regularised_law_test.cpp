@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "unit/one_point.h"
 
 namespace mortier::regularised_law_test {
@@ -60,10 +60,10 @@ void expectRegularised(const Material& material) {
 
 TEST(RegularisedLaw, isTheLawAtTheStrainThatThePenaltyAdds) {
   expectRegularised(*elasticMaterial(elasticity));
-  expectRegularised(*planeStrainElasticMaterial(elasticity));
+  expectRegularised(*elasticMaterial(elasticity, Plane::strain));
   for (const Projection projection : projections) {
     expectRegularised(*perzynaMaterial(elasticity, {viscosity, 1, projection}));
-    expectRegularised(*planeStrainPerzynaMaterial(elasticity, {viscosity, 1, projection}));
+    expectRegularised(*perzynaMaterial(elasticity, {viscosity, 1, projection}, Plane::strain));
   }
 }
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "contact/surface.h"
 #include "fem/body.h"
-#include "material/space.h"
+#include "material/deviatoric.h"
 #include "material/stress.h"
 #include "mesh/read.h"
 #include "mesh/regions.h"
@@ -271,7 +271,7 @@ TEST_F(SpaceMesh, initialStressesAndExpansionsAreThoseOfRegions) {
   const auto count = static_cast<Eigen::Index>(4 * regions.size());
   conditions.expansion = Matrix::Zero(6, count);
   for (Eigen::Index i = 0; i < count; ++i) conditions.expansion(5, i) = regions[i / 4];
-  const Body body("box", std::move(mesh), spaceElasticMaterial({1, 0.3}), conditions, 2);
+  const Body body("box", std::move(mesh), elasticMaterial({1, 0.3}, Plane::none), conditions, 2);
   ASSERT_TRUE(body.hasInitialStress() && body.heated());
   const Matrix stress = body.initialStress();
   const Matrix strain = body.thermalStrain(3);

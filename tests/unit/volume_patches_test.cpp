@@ -10,7 +10,7 @@
 
 #include "fem/body.h"
 #include "fem/rigid_modes.h"
-#include "material/plane_strain.h"
+#include "material/deviatoric.h"
 #include "mesh/generate.h"
 #include "unit/dense_reference.h"
 
@@ -38,9 +38,13 @@ struct Kind {
 constexpr Kind kinds[] = {{1, false}, {2, false}, {1, true}, {2, true}};
 
 Body body(const Kind& kind, Conditions conditions = {}, bool averaged = true) {
-  return {
-      "plate",        mesh(),  planeStrainElasticMaterial({3, 0.4999}), std::move(conditions), kind.degree,
-      kind.aboutAxis, averaged};
+  return {"plate",
+          mesh(),
+          elasticMaterial({3, 0.4999}, Plane::strain),
+          std::move(conditions),
+          kind.degree,
+          kind.aboutAxis,
+          averaged};
 }
 
 Matrix strainOf(const Body& body, const Vector& u) {
