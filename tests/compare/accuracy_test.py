@@ -6,7 +6,8 @@ import subprocess
 import time
 import unittest
 
-from scenes import SHAPE_KEYS, TWO_BLOCKS
+from scenes import TWO_BLOCKS
+from shape_scenes import SHAPE_KEYS
 from support import PROGRAM, InFolder
 
 # A stiff punch in the middle of a block, meshes as coarse as they can be.

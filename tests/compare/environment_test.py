@@ -9,8 +9,9 @@ import subprocess
 import unittest
 
 from mutations import explore, require_whole
-from scenes import (BODY_KEYS, CONTACT_KEYS, ELASTIC_KEYS, FRICTION_KEYS, GEOMETRY_KEYS, LAW_KEYS, ONE_BODY,
-                    SHAPE_KEYS, SPACE_KEYS, TOOL_KEYS, TWO_BLOCKS, lower_heat)
+from scenes import (BODY_KEYS, CONTACT_KEYS, ELASTIC_KEYS, FRICTION_KEYS, LAW_KEYS, TOOL_KEYS, TWO_BLOCKS,
+                    lower_heat)
+from shape_scenes import GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS, SPACE_KEYS
 from support import PROGRAM, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")

@@ -25,7 +25,8 @@ import meshio
 import numpy as np
 
 from mutators import OF_MESHES, OF_SCENES
-from scenes import BODY_KEYS, CONTACT_KEYS, ONE_BODY, SPACE_KEYS, TWO_BLOCKS
+from scenes import BODY_KEYS, CONTACT_KEYS, TWO_BLOCKS
+from shape_scenes import ONE_BODY, SPACE_KEYS
 
 
 class Fault(Exception):

@@ -11,7 +11,7 @@ from cases import SCENES, UNKNOWN_TO_FREEFEM, SceneCase, scene_cases
 from codes import RunError, run_freefem, run_mortier
 from compare import compare
 from oracle import compare_scenes
-from scenes import GEOMETRY_KEYS, PARTS_GEO
+from shape_scenes import GEOMETRY_KEYS, PARTS_GEO
 
 COMPRESSION = SceneCase("compression", "interpolation", changes=(
     "time.steps=3", "body.upper.mesh=shared-meshes/block-upper-3.mesh",

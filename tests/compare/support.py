@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -69,6 +70,22 @@ class InFolder(unittest.TestCase):
         self.assertTrue(errors.startswith("mortier: " + message), f"\nexpected {message}\nis       {errors}")
         self.assertEqual(errors.count("\n"), 1, errors)
         self.assertFalse((self.folder / "out").exists())
+
+    def resume(self, settings, lines, names):
+        """A run of scene.toml that is killed once its history has more lines goes on from its checkpoint to
+        the same bytes in these files."""
+        settings = ("--set", *settings, "--checkpoint", "0") if settings else ("--checkpoint", "0")
+        self.mortier("run", "scene.toml", "--out", "whole", *settings)
+        process = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "killed", *settings],
+                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        history = self.folder / f"killed.tmp-{process.pid}/history.csv"
+        while process.poll() is None and not (history.exists() and history.read_bytes().count(b"\n") > lines):
+            time.sleep(0.001)
+        process.kill()
+        self.assertNotEqual(process.wait(), 0, "the run ended before it was killed")
+        self.mortier("run", "--restart", "killed")
+        for name in names:
+            self.assertEqual(*((self.folder / out / name).read_bytes() for out in ("whole", "killed")), name)
 
 
 class OfTwoBlocks(InFolder):

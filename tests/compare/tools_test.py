@@ -2,8 +2,6 @@
 """Rigid tools ([[tool]], docs/scene.md): exact solutions, balance, free motions, quantities, faults."""
 import json
 import math
-import subprocess
-import time
 import unittest
 
 import support
@@ -278,22 +276,10 @@ class Tools(support.InFolder):
         self.assertLess(left, 0)
 
     def test_stopped_and_resumed(self):
-        """A run that is killed at a step goes on from its checkpoint to the same bytes."""
         self.write(pressed('fy = "-1-0.5*sin(20*t)"\nfx = "0.1*sin(9*t)"\nmoment = "-0.1-0.1*sin(7*t)"',
                            "friction = 0.4\n") + "[output]\nevery = 1\n")
-        settings = ("--set", "time.steps=400", "--checkpoint", "0")
-        self.mortier("run", "scene.toml", "--out", "whole", *settings)
-        process = subprocess.Popen([support.PROGRAM, "run", "scene.toml", "--out", "killed", *settings],
-                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        history = f"killed.tmp-{process.pid}/history.csv"
-        while process.poll() is None and not ((path := self.folder / history).exists() and
-                                              path.read_bytes().count(b"\n") > 20):
-            time.sleep(0.001)
-        process.kill()
-        self.assertNotEqual(process.wait(), 0, "the run ended before it was killed")
-        self.mortier("run", "--restart", "killed")
-        for name in ("history.csv", "contact.csv", "plate_000400.vtu", "block_000400.vtu"):
-            self.assertEqual(*((self.folder / out / name).read_bytes() for out in ("whole", "killed")), name)
+        self.resume(["time.steps=400"], 20,
+                    ("history.csv", "contact.csv", "plate_000400.vtu", "block_000400.vtu"))
 
     def test_pictures_and_plan(self):
         self.write(pressed('fy = "-1*t"\nmoment = "-0.3*t"'))

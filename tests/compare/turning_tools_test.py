@@ -1,8 +1,6 @@
 """Tools that turn by finite angles: contact follows them (sliding = "finite")."""
 import json
 import math
-import subprocess
-import time
 import unittest
 
 import support
@@ -162,19 +160,7 @@ class TurningTools(support.InFolder):
     def test_stopped_and_resumed(self):
         self.write(self.block(-1.5, 1.5, 40) + DISC + 'uy = "-0.01-0.005*sin(9*t)"\nmoment = "0.1*sin(7*t)"\n'
                    'ux = "t"\n' + CONTACT + "friction = 0.3\n" + QUANTITIES + timed(60))
-        settings = ("--checkpoint", "0")
-        self.mortier("run", "scene.toml", "--out", "whole", *settings)
-        process = subprocess.Popen([support.PROGRAM, "run", "scene.toml", "--out", "killed", *settings],
-                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        history = f"killed.tmp-{process.pid}/history.csv"
-        while process.poll() is None and not ((path := self.folder / history).exists() and
-                                              path.read_bytes().count(b"\n") > 5):
-            time.sleep(0.001)
-        process.kill()
-        self.assertNotEqual(process.wait(), 0, "the run ended before it was killed")
-        self.mortier("run", "--restart", "killed")
-        for name in ("history.csv", "contact.csv", "tool_000060.vtu", "block_000060.vtu"):
-            self.assertEqual(*((self.folder / out / name).read_bytes() for out in ("whole", "killed")), name)
+        self.resume([], 5, ("history.csv", "contact.csv", "tool_000060.vtu", "block_000060.vtu"))
 
     def test_check_names_what_is_not_small(self):
         for motion, sliding, kinds in (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
-from scenes import GEOMETRY_KEYS, PARTS_GEO  # noqa: E402
+from shape_scenes import GEOMETRY_KEYS, PARTS_GEO  # noqa: E402
 from support import mortier, OfTwoBlocks, told, warned  # noqa: E402
 
 POINTS = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]

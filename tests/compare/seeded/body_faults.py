@@ -2,14 +2,9 @@
 from seeded.case import THIRD, Mesh, fault
 
 
-@fault("extent-ratio", "mesh = \"upper.mesh\"")
-def _(case):
-    case.lower.move(lambda x, y: (1000 * x, 1000 * y))
-
-
-@fault("stiffness-ratio", "scene.toml:4")
-def _(case):
-    case.replace("young = 3e11", "young = 3e8")
+fault("extent-ratio", "mesh = \"upper.mesh\"")(
+    lambda case: case.lower.move(lambda x, y: (1000 * x, 1000 * y)))
+fault("stiffness-ratio", "scene.toml:4")(lambda case: case.replace("young = 3e11", "young = 3e8"))
 
 
 @fault("same-mesh", "scene.toml:14")
@@ -31,19 +26,9 @@ def _(case):
     case.replace("label = 4\nux = 0", "label = 4\nux = 0\nuy = 0")
 
 
-@fault("body-alone", "[[body]]\nname = \"third\"")
-def _(case):
-    case.replace("[contact]", THIRD + "[contact]")
-
-
-@fault("unheld-body", "scene.toml")
-def _(case):
-    case.replace("label = 4\nux = 0", "label = 4\nty = 0")
-
-
-@fault("unheld-body", "scene.toml")
-def _(case):
-    case.replace("uy = 0", "tx = 0")
+fault("body-alone", "[[body]]\nname = \"third\"")(lambda case: case.replace("[contact]", THIRD + "[contact]"))
+fault("unheld-body", "scene.toml")(lambda case: case.replace("label = 4\nux = 0", "label = 4\nty = 0"))
+fault("unheld-body", "scene.toml")(lambda case: case.replace("uy = 0", "tx = 0"))
 
 
 @fault("unheld-body", "scene.toml")

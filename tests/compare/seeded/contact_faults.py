@@ -4,9 +4,8 @@ import math
 from seeded.case import ELASTIC, THIRD, Mesh, fault
 
 
-@fault("contact-line", "scene.toml:24")
-def _(case):
-    case.upper.relabel(lambda x, y, label: 5 if y == 0 and 0.3 < x < 0.6 else label)
+fault("contact-line", "scene.toml:24")(
+    lambda case: case.upper.relabel(lambda x, y, label: 5 if y == 0 and 0.3 < x < 0.6 else label))
 
 
 @fault("contact-labels-swapped", "[contact]")
@@ -15,29 +14,13 @@ def _(case):
     case.replace('body = "lower", label = 3', 'body = "lower", label = 1')
 
 
-@fault("contact-normals", "[contact]")
-def _(case):
-    case.replace('body = "lower", label = 3', 'body = "lower", label = 1')
-
-
-@fault("contact-not-facing", "[contact]")
-def _(case):
-    case.replace('body = "lower", label = 3', 'body = "lower", label = 2')
-
-
-@fault("contact-no-overlap", "[contact]")
-def _(case):
-    case.lower.move(lambda x, y: (x + 1.5, y))
-
-
-@fault("contact-penetration", "[contact]")
-def _(case):
-    case.lower.move(lambda x, y: (x, y + 0.05))
-
-
-@fault("contact-overlap", "[contact]")
-def _(case):
-    case.lower.move(lambda x, y: (x + 0.8, y))
+fault("contact-normals", "[contact]")(
+    lambda case: case.replace('body = "lower", label = 3', 'body = "lower", label = 1'))
+fault("contact-not-facing", "[contact]")(
+    lambda case: case.replace('body = "lower", label = 3', 'body = "lower", label = 2'))
+fault("contact-no-overlap", "[contact]")(lambda case: case.lower.move(lambda x, y: (x + 1.5, y)))
+fault("contact-penetration", "[contact]")(lambda case: case.lower.move(lambda x, y: (x, y + 0.05)))
+fault("contact-overlap", "[contact]")(lambda case: case.lower.move(lambda x, y: (x + 0.8, y)))
 
 
 # Meshes of one cosine: no circle.
@@ -48,9 +31,7 @@ def _(case):
         mesh.move(lambda x, y: (x, y + 0.2 * math.cos(3 * x)))
 
 
-@fault("gap-large", "[contact]")
-def _(case):
-    case.lower.move(lambda x, y: (x, y - 5))
+fault("gap-large", "[contact]")(lambda case: case.lower.move(lambda x, y: (x, y - 5)))
 
 
 @fault("contact-slides", "[contact]")
@@ -124,9 +105,8 @@ def _(case):
     case.replace("label = 3 }\n", "label = 3 }\nvariant = \"weighted\"\n")
 
 
-@fault("friction-large", "[contact]")
-def _(case):
-    case.replace("label = 3 }\n", "label = 3 }\nfriction = 1.2\n")
+fault("friction-large", "[contact]")(
+    lambda case: case.replace("label = 3 }\n", "label = 3 }\nfriction = 1.2\n"))
 
 
 @fault("interpolation-unmatched", "[contact]")
@@ -160,12 +140,8 @@ def _(case):
 
 
 # Supports that press the blocks into each other, by an eighth of their heights.
-@fault("large-strain", "[contact]", ELASTIC)
-def _(case):
-    case.replace("label = 3\nty = -10", 'label = 3\nuy = "-0.25*t"')
-
-
+fault("large-strain", "[contact]", ELASTIC)(
+    lambda case: case.replace("label = 3\nty = -10", 'label = 3\nuy = "-0.25*t"'))
 # A side that is turned by six degrees.
-@fault("large-rotation", 'uy = "0.11', ELASTIC)
-def _(case):
-    case.replace("label = 3\nty = -10", 'label = 3\nuy = "0.11*x*t-0.05*t"')
+fault("large-rotation", 'uy = "0.11', ELASTIC)(
+    lambda case: case.replace("label = 3\nty = -10", 'label = 3\nuy = "0.11*x*t-0.05*t"'))

@@ -2,19 +2,11 @@
 from seeded.case import Mesh, fault
 
 
-@fault("missing-label", "scene.toml:10")
-def _(case):
-    case.replace("label = 3\n", "label = 33\n")
-
-
-@fault("missing-label", "scene.toml:25")
-def _(case):
-    case.replace('body = "lower", label = 3', 'body = "lower", label = 9')
-
-
-@fault("missing-point", "scene.toml:24")
-def _(case):
-    case.replace("[contact]", "[[body.point]]\nat = [0.5, -0.1]\nux = 0\n[contact]")
+fault("missing-label", "scene.toml:10")(lambda case: case.replace("label = 3\n", "label = 33\n"))
+fault("missing-label", "scene.toml:25")(
+    lambda case: case.replace('body = "lower", label = 3', 'body = "lower", label = 9'))
+fault("missing-point", "scene.toml:24")(
+    lambda case: case.replace("[contact]", "[[body.point]]\nat = [0.5, -0.1]\nux = 0\n[contact]"))
 
 
 @fault("missing-region", "label = 7")
@@ -23,9 +15,8 @@ def _(case):
                  "[[body.region]]\nlabel = 7\nmaterial = { young = 3e11, poisson = 0.3 }\n[contact]")
 
 
-@fault("label-interrupted", "upper.mesh: edge from vertex")
-def _(case):
-    case.upper.relabel(lambda x, y, label: 8 if y == 1 and 0.4 < x < 0.6 else label)
+fault("label-interrupted", "upper.mesh: edge from vertex")(
+    lambda case: case.upper.relabel(lambda x, y, label: 8 if y == 1 and 0.4 < x < 0.6 else label))
 
 
 @fault("label-interrupted", "lower.mesh: edge from vertex")
@@ -33,9 +24,8 @@ def _(case):
     case.lower.edges = [e for e in case.lower.edges if not (e[2] == 1 and e[0] in (3, 4))]
 
 
-@fault("unused-label", "upper.mesh: edge from vertex")
-def _(case):
-    case.upper.relabel(lambda x, y, label: 8 if y == 1 and x > 0.5 else label)
+fault("unused-label", "upper.mesh: edge from vertex")(
+    lambda case: case.upper.relabel(lambda x, y, label: 8 if y == 1 and x > 0.5 else label))
 
 
 @fault("stray-label", "upper.mesh: label 8")

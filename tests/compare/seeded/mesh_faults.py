@@ -21,14 +21,8 @@ def _(case):
     case.upper.vertices[c - 1] = [(xa + xb) / 2, (ya + yb) / 2]
 
 
-@fault("repeated-triangle", "upper.mesh:")
-def _(case):
-    case.upper.triangles.append(case.upper.triangles[5])
-
-
-@fault("unused-vertex", "upper.mesh:")
-def _(case):
-    case.upper.vertex(0.5, 0.5)
+fault("repeated-triangle", "upper.mesh:")(lambda case: case.upper.triangles.append(case.upper.triangles[5]))
+fault("unused-vertex", "upper.mesh:")(lambda case: case.upper.vertex(0.5, 0.5))
 
 
 @fault("overlapping-triangles", "upper.mesh:")
@@ -43,9 +37,7 @@ def _(case):
     case.upper.edges.append([a, c, 5])
 
 
-@fault("label-twice", "upper.mesh:")
-def _(case):
-    case.upper.edges.append(case.upper.edges[0][:2] + [5])
+fault("label-twice", "upper.mesh:")(lambda case: case.upper.edges.append(case.upper.edges[0][:2] + [5]))
 
 
 # Meshes that are doubtful.
@@ -85,9 +77,7 @@ def cut(mesh, keep=lambda x, y: False):
             e[:2] = [double.get(v, v) for v in e[:2]]
 
 
-@fault("crack", "upper.mesh: vertex")
-def _(case):
-    cut(case.upper, keep=lambda x, y: x < 0.4)
+fault("crack", "upper.mesh: vertex")(lambda case: cut(case.upper, keep=lambda x, y: x < 0.4))
 
 
 @fault("hanging-node", "upper.mesh: vertex")
