@@ -12,8 +12,6 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "commands/command_line.h"
-#include "fem/element.h"
-#include "mesh/boundary_line.h"
 #include "mesh/read.h"
 #include "plan/loads.h"
 #include "scene/build.h"
@@ -58,83 +56,6 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
       << " = " << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity ["
       << units.nameOf(dimensions::viscosity) << "] (0: elastic body), yield stress [" << units.stress
       << "]\n";
-}
-
-using Kind = ConditionDescription::Kind;
-
-bool isRoller(const ConditionDescription& condition) {
-  return condition.kind == Kind::displacement && !condition.point &&
-         (condition.component == alongNormal || condition.component == alongTangent);
-}
-
-/// Loads by the rules that mortier takes (docs/theory.md) where these integrate them, with quadratic
-/// displacements by FreeFEM's own of degree 5; others, which mortier resolves, by those of degree 9 on
-/// edges and triangles. A macro must not be empty.
-void writeConditions(std::ostream& out, const BodyDescription& body, int number,
-                     const SceneDescription& scene, const std::vector<int>& labels) {
-  const std::string n = std::to_string(number);
-  const std::string own = scene.plane == Plane::axisymmetric ? "*2*pi*x" : "";  // beside FreeFEM's rules
-  const int degree = scene.degree;
-  std::ostringstream supports;
-  std::ostringstream loads;
-  if (body.isTool()) supports << freefemRigidMotion(body, labels, scene.plane == Plane::axisymmetric);
-  for (const ConditionDescription& c : body.conditions) {
-    const std::string value = freefemExpression(c.value);
-    if (c.point) continue;
-    if (c.kind == Kind::displacement && !isRoller(c)) {
-      supports << "+ on(" << c.label << ", u" << c.component + 1 << " = " << value << ") ";
-    } else if (c.kind == Kind::traction) {
-      const std::string direction =
-          c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
-      const bool simpson = degree == 1 && c.value.value.degree <= LinearTriangle::edgeExact;
-      const bool rough = c.value.value.degree > QuadraticTriangle::edgeExact;
-      loads << (simpson ? "+ simpson(" + n + ", " : "+ int1d(Body" + n + ", ") << c.label
-            << (simpson ? ", ("
-                : rough ? ", qfe = qf5pE)(("
-                        : ")((")
-            << value << ")*" << direction << (simpson ? "" : own) << ") ";
-    }
-  }
-  for (const int c : {0, 1}) {
-    if (body.force[c]) {
-      const bool midpoints = degree == 1 && body.force[c]->value.degree <= LinearTriangle::loadExact;
-      const bool rough = body.force[c]->value.degree > QuadraticTriangle::loadExact;
-      loads << (midpoints ? "+ midpoints(" + n + ", (" : "+ int2d(Body" + n)
-            << (midpoints ? ""
-                : rough   ? ", qft = qf9pT)(("
-                          : ")((")
-            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << (midpoints ? "" : own) << ") ";
-    }
-  }
-  const auto orZero = [&](const std::ostringstream& terms, const char* zero) {
-    const std::string text = terms.str();
-    return text.empty() ? "+ int2d(Body" + n + ")(" + zero + ") " : text;
-  };
-  out << "macro supports" << n << ' ' << orZero(supports, "0.*u1*v1") << "//\nmacro loads" << n << ' '
-      << orZero(loads, "0.*v2") << "//\n";
-}
-
-/// Macros for all bodies: rollers, points that are held, and tools that forces move.
-std::string specialSupports(const SceneDescription& scene) {
-  std::string tools;
-  std::string rollers;
-  std::string points;
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (isPushed(scene.bodies[b])) tools += freefemPushedTool(scene.bodies[b], static_cast<int>(b) + 1);
-    for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      const std::string body = "(" + std::to_string(b + 1) + ", ";
-      const std::string value = ", " + freefemExpression(c.value) + ") ";
-      if (isRoller(c))
-        rollers += "roller" + body + std::to_string(c.label) + ", " +
-                   (c.component == alongNormal ? "normal" : "tangent") + value;
-      if (c.point && !scene.bodies[b].isTool())
-        points += "heldPoint" + body + shortest(c.point->x()) + ", " + shortest(c.point->y()) + ", " +
-                  std::to_string(c.component + 1) + value;
-    }
-  }
-  return freefemMacro("freeTools", tools, "body, x, y, (1: a force, value) along x, y, about them") +
-         freefemMacro("rollers", rollers, "body, label, direction, displacement") +
-         freefemMacro("heldPoints", points, "body, x, y, component, displacement");
 }
 
 /// What an interface has in place of its distance as meshed; none where it is that everywhere.
@@ -232,12 +153,8 @@ std::string script(const SceneDescription& scene, const Model& model,
   if (!scene.inSpace()) out << freefemMaterials(scene) << freefemPatches(model);
   out << "\n// Boundary conditions and loads, functions of x, y" << (scene.inSpace() ? ", z" : "")
       << " and t\n";
-  for (int b = 0; b < bodies; ++b)
-    if (scene.inSpace())
-      out << freefemSpaceConditions(scene.bodies[b], b + 1);
-    else
-      writeConditions(out, scene.bodies[b], b + 1, scene, boundaryLabels(model.bodies[b].mesh()));
-  out << (scene.inSpace() ? "" : specialSupports(scene))
+  for (int b = 0; b < bodies; ++b) out << freefemConditions(scene, model, b);
+  out << (scene.inSpace() ? "" : freefemSpecialSupports(scene))
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[k].pair();

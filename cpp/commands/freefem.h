@@ -18,8 +18,10 @@ void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool
 
 /// \throws InputError for the first thing that the method does not know in a scene in space
 void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model);
-/// Supports and loads of a body in space.
-std::string freefemSpaceConditions(const BodyDescription& body, int number);
+/// Supports and loads of a body.
+std::string freefemConditions(const SceneDescription& scene, const Model& model, size_t b);
+/// Macros for all bodies: rollers, points that are held, and tools that forces move.
+std::string freefemSpecialSupports(const SceneDescription& scene);
 
 /// One macro for all bodies or interfaces, with its text; empty where the text is.
 std::string freefemMacro(const std::string& name, const std::string& text, const std::string& comment);
@@ -46,13 +48,5 @@ std::vector<std::string> namesIn(const std::string& text);
 std::string freefemString(const std::string& text, const std::string& where);
 /// `// text` and the end of the line, whatever the text holds.
 std::string freefemComment(const std::string& text);
-/// A body whose boundary (its labels) moves as a rigid one is free of stress, and moves so inside. Of a tool
-/// that forces move what is held beside freefemPushedTool().
-std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels,
-                               bool axisymmetric);
-/// Whether a force or a moment moves a tool.
-bool isPushed(const BodyDescription& body);
-/// The call that adds its equations.
-std::string freefemPushedTool(const BodyDescription& tool, int number);
 
 }  // namespace mortier

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/freefem.h"
-#include "scene/document.h"
 
 namespace mortier {
 
@@ -145,34 +144,6 @@ std::string freefemString(const std::string& text, const std::string& where) {
 
 std::string freefemComment(const std::string& text) {
   return "// " + printable(text) + '\n';
-}
-
-bool isPushed(const BodyDescription& body) {
-  return body.isTool() && std::any_of(body.conditions.begin(), body.conditions.end(), [](const auto& c) {
-           return c.kind == ConditionDescription::Kind::traction;
-         });
-}
-
-std::string freefemPushedTool(const BodyDescription& tool, int number) {
-  std::string text = "freeTool(" + std::to_string(number) + ", " + shortest(tool.reference->x()) + ", " +
-                     shortest(tool.reference->y());
-  for (const ConditionDescription& c : tool.conditions)
-    text += (c.kind == ConditionDescription::Kind::traction ? ", 1, " : ", 0, ") + freefemExpression(c.value);
-  return text + "); ";
-}
-
-std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels,
-                               bool axisymmetric) {
-  if (isPushed(tool) && !axisymmetric) return "";
-  std::string on = "+ on(";
-  for (const int label : labels) on += std::to_string(label) + ", ";
-  if (isPushed(tool)) return on + "u1 = 0) ";
-  const auto value = [&](int c) { return freefemExpression(tool.conditions[c].value); };
-  const auto arm = [&](const char* x, double at) {
-    return "*(" + std::string(x) + " - (" + shortest(at) + "))";
-  };
-  return on + "u1 = (" + value(0) + ") - (" + value(2) + ")" + arm("y", tool.reference->y()) + ", u2 = (" +
-         value(1) + ") + (" + value(2) + ")" + arm("x", tool.reference->x()) + ") ";
 }
 
 }  // namespace mortier

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <sstream>
 
 #include "base/error.h"
 #include "commands/freefem.h"
@@ -15,14 +14,6 @@ namespace {
   throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows)");
 }
 
-/// Whether contact follows the body.
-bool follows(const SceneDescription& scene, const BodyDescription& body) {
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
-    return contact.sliding == SlidingKind::finite &&
-           (contact.nonmortar.body == body.name || contact.mortar.body == body.name);
-  });
-}
-
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
@@ -33,7 +24,7 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
            "equal steps, or those of a run (--steps-of)");
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
-      if (body.isTool() && c.component == 2 && follows(scene, body) &&
+      if (body.isTool() && c.component == 2 && isFollowed(scene, body.name) &&
           (c.kind == ConditionDescription::Kind::traction ||
            !(c.value.constant && c.value.value(0, 0, 0) == 0)))
         refuse(c.where + ": tool " + body.name + ": a tool that turns beside sliding = \"finite\"",
@@ -162,30 +153,6 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
         refuse(scene.contacts[k].where + ": contact: a curved surface of body " + body.name(), "plane ones");
     }
   }
-}
-
-std::string freefemSpaceConditions(const BodyDescription& body, int number) {
-  const std::string n = std::to_string(number);
-  std::ostringstream supports;
-  std::ostringstream loads;
-  for (const ConditionDescription& c : body.conditions) {
-    const std::string value = freefemExpression(c.value);
-    if (c.kind == Kind::displacement)
-      supports << "+ on(" << c.label << ", u" << c.component + 1 << " = " << value << ") ";
-    else
-      loads << "+ int2d(Body" << n << ", " << c.label << ")((" << value << ")*"
-            << (c.component == spaceNormal ? "(N.x*v1 + N.y*v2 + N.z*v3)"
-                                           : "v" + std::to_string(c.component + 1))
-            << ") ";
-  }
-  for (int c = 0; c < 3; ++c)
-    if (body.force[c])
-      loads << "+ int3d(Body" << n << ")((" << freefemExpression(*body.force[c]) << ")*v" << c + 1 << ") ";
-  const auto orZero = [&](const std::ostringstream& terms, const char* zero) {
-    return terms.str().empty() ? "+ int3d(Body" + n + ")(" + zero + ") " : terms.str();
-  };
-  return "macro supports" + n + ' ' + orZero(supports, "0.*u1*v1") + "//\nmacro loads" + n + ' ' +
-         orZero(loads, "0.*v2") + "//\n";
 }
 
 }  // namespace mortier

@@ -12,6 +12,7 @@
 #include "base/printable.h"
 #include "commands/command_line.h"
 #include "mesh/boundary_line.h"
+#include "mesh/box_of.h"
 #include "mesh/generate.h"
 #include "mesh/read.h"
 
@@ -195,15 +196,8 @@ std::string extentsOf(const Eigen::AlignedBox<double, components>& box, double s
   return text;
 }
 
-template <class Mesh>
-auto boxOf(const Mesh& mesh) {
-  Eigen::AlignedBox<double, std::decay_t<decltype(mesh.vertices.front())>::SizeAtCompileTime> box;
-  for (const auto& vertex : mesh.vertices) box.extend(vertex);
-  return box;
-}
-
 int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
-  const auto box = boxOf(mesh);
+  const auto box = boxOf(mesh.vertices);
   const double size = box.diagonal().norm();
   double volume = 0;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
@@ -229,7 +223,7 @@ int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
 }
 
 int describeMesh(const std::string& file, const TriangleMesh& mesh) {
-  const auto box = boxOf(mesh);
+  const auto box = boxOf(mesh.vertices);
   const double size = box.diagonal().norm();
   double area = 0;
   double worst = 0;

@@ -2,15 +2,20 @@
 #include <filesystem>
 
 #include "base/digits.h"
+#include "base/formatted.h"
 #include "lint/lint.h"
+#include "mesh/box_of.h"
 
 namespace mortier {
 namespace {
 
+bool isOf(const ContactDescription& c, const std::string& a, const std::string& b) {
+  return (c.nonmortar.body == a && c.mortar.body == b) || (c.nonmortar.body == b && c.mortar.body == a);
+}
+
 bool inContact(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& c) {
-    return (c.nonmortar.body == a && c.mortar.body == b) || (c.nonmortar.body == b && c.mortar.body == a);
-  });
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [&](const ContactDescription& c) { return isOf(c, a, b); });
 }
 
 /// By the number of boundary edges that a ray to the right crosses.
@@ -44,7 +49,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   constexpr double touching = 1e-6;  // of the extent
   constexpr double deep = 0.25;      // of the edges: curved sides that touch overlap by less
   Meeting result;
-  const auto [lower, upper] = boundingBox(b);
+  const auto box = boxOf(b.vertices);
   const SegmentTree tree(b, boundaryOfB);
   const double edge = meanEdge(b, boundaryOfB);
   constexpr double polygons = 1.5;  // what is seen at other vertices than those of the contact may be deeper
@@ -53,7 +58,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   const double near = touching * extent(b);
   for (const BoundaryEdge& each : boundaryOfA.boundary) {
     const Point& p = a.vertices[each.from];
-    if ((p.array() < (lower - margin).array()).any() || (p.array() > (upper + margin).array()).any())
+    if ((p.array() < (box.min() - margin).array()).any() || (p.array() > (box.max() + margin).array()).any())
       continue;
     double distance = INFINITY;
     tree.near(p - margin, p + margin,
@@ -107,24 +112,19 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
   double meant = 0;
   for (size_t k = 0; k < input.interference.size(); ++k)
-    if (const ContactDescription& c = input.scene.contacts[k];
-        (c.nonmortar.body == one.name && c.mortar.body == two.name) ||
-        (c.nonmortar.body == two.name && c.mortar.body == one.name))
-      meant = std::max(meant, input.interference[k]);
+    if (isOf(input.scene.contacts[k], one.name, two.name)) meant = std::max(meant, input.interference[k]);
   const Meeting m1 = meet(a, input.topologies[i], b, input.topologies[j], meant);
   const Meeting m2 = meet(b, input.topologies[j], a, input.topologies[i], meant);
   if (m1.inside >= 0 || m2.inside >= 0) {
     const TriangleMesh& mesh = m1.inside >= 0 ? a : b;
     const int v = m1.inside >= 0 ? m1.inside : m2.inside;
     faults.add("bodies-overlap", mesh.name + ": vertex " + std::to_string(v + 1),
-               both + " penetrate each other, e.g. at (" + digits(mesh.vertices[v].x(), 4) + ", " +
-                   digits(mesh.vertices[v].y(), 4) + ")");
+               both + " penetrate each other, e.g. at " + placeText(mesh.vertices[v]));
   } else if (m1.touching + m2.touching > 2 && !inContact(input.scene, one.name, two.name)) {
     const TriangleMesh& mesh = m1.touching > 0 ? a : b;
     const int v = m1.touching > 0 ? m1.where : m2.where;
     faults.add("contact-missing", mesh.name + ": vertex " + std::to_string(v + 1),
-               both + " touch, e.g. at (" + digits(mesh.vertices[v].x(), 4) + ", " +
-                   digits(mesh.vertices[v].y(), 4) + "), and no contact says so");
+               both + " touch, e.g. at " + placeText(mesh.vertices[v]) + ", and no contact says so");
   }
 }
 

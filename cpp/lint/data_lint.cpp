@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/digits.h"
+#include "base/formatted.h"
 #include "fem/data_misfit.h"
 #include "lint/lint.h"
 #include "scene/document.h"
@@ -115,11 +116,8 @@ class DataLint {
   }
 
   void tell(const std::string& id, const Expression& datum, const Sum& sum, const std::string& what) {
-    const size_t end = datum.where.find(": ");
-    faults_.add(id, datum.where.substr(0, end),
-                (end == std::string::npos ? "" : datum.where.substr(end + 2) + ": ") + what + "[" +
-                    digits(sum.worst.x(), 4) + ", " + digits(sum.worst.y(), 4) + "]" +
-                    (datum.inTime ? ", t = " + digits(sum.time, 4) : ""));
+    faults_.add(id, datum.where + ": " + what + formatted("[%.4g, %.4g]", sum.worst.x(), sum.worst.y()) +
+                        (datum.inTime ? ", t = " + digits(sum.time, 4) : ""));
   }
 
   const SceneDescription& scene_;

@@ -102,13 +102,6 @@ void addRotation(const Most& turn, const std::string& subject, Faults& faults) {
                subject + " by " + digits(turn.value * 180 / M_PI, 2) + " degrees");
 }
 
-/// Contact follows a tool that turns by finite angles.
-bool turnsLinearly(const LintInput& input, const BodyDescription& tool) {
-  return std::none_of(input.scene.contacts.begin(), input.scene.contacts.end(), [&](const auto& contact) {
-    return contact.mortar.body == tool.name && contact.sliding == SlidingKind::finite;
-  });
-}
-
 /// Length over which a body takes the motion of one of its points along n: a line from there to where its
 /// motion is prescribed along the line shortens by the part of the motion along it.
 double lengthTo(const LintInput& input, const SideDescription& side, const Point& x, const Point& n) {
@@ -199,7 +192,7 @@ void lintDeformations(const LintInput& input, Faults& faults) {
       if (body.isTool()) {
         for (const ConditionDescription& c : body.conditions)
           if (c.kind == ConditionDescription::Kind::displacement && c.component == 2 &&
-              turnsLinearly(input, body))
+              !isFollowed(input.scene, body.name))  // else it turns by finite angles
             turn.raise(std::abs(c.value.value(0, 0, t)), c.where);
         continue;
       }

@@ -27,6 +27,12 @@ void Faults::add(const std::string& id, const std::string& place, const std::str
   faults_.push_back({&kind, place, message});
 }
 
+void Faults::add(const std::string& id, const std::string& message) {
+  const size_t end = message.find(": ");
+  if (end == std::string::npos) return add(id, "", message);
+  add(id, message.substr(0, end), message.substr(end + 2));
+}
+
 int Faults::count(Severity severity) const {
   size_t number = 0;
   for (const Fault& fault : faults_)

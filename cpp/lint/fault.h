@@ -44,6 +44,8 @@ class Faults {
   explicit Faults(const std::vector<std::string>& allowed = {}) : allowed_(allowed.begin(), allowed.end()) {}
 
   void add(const std::string& id, const std::string& place, const std::string& message);
+  /// One whose message begins with its place, `file:line: ` or `file: `.
+  void add(const std::string& id, const std::string& message);
   [[nodiscard]] const std::vector<Fault>& all() const { return faults_; }
   [[nodiscard]] int count(Severity severity) const;
   [[nodiscard]] bool has(const std::string& id) const;

@@ -6,6 +6,7 @@
 
 #include "base/digits.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "contact/interface.h"
 #include "plan/loads.h"
 #include "scene/build.h"
@@ -19,25 +20,16 @@
 namespace mortier {
 namespace {
 
-/// The place with which a message begins, `file:line` or `file`, and the rest of it.
-std::pair<std::string, std::string> splitPlace(const std::string& message) {
-  const size_t end = message.find(": ");
-  if (end == std::string::npos) return {"", message};
-  return {message.substr(0, end), message.substr(end + 2)};
-}
-
 /// A place that was computed: what is rounding beside the size of a body is 0.
-std::string placeText(const Point& place, double size) {
+std::string computedPlace(const Point& place, double size) {
   constexpr double rounding = 1e-12;
-  const auto number = [&](double x) { return std::abs(x) < rounding * size ? "0" : digits(x, 4); };
-  return "(" + number(place.x()) + ", " + number(place.y()) + ")";
+  return placeText((place.array().abs() < rounding * size).select(Point(0, 0), place));
 }
 
 /// \param id  of faults that have none of their own.
 void addError(const InputError& error, const std::string& id, Faults& faults) {
   const auto* own = dynamic_cast<const FaultError*>(&error);
-  const auto [place, text] = splitPlace(error.what());
-  faults.add(own != nullptr ? own->id() : id, place, text);
+  faults.add(own != nullptr ? own->id() : id, error.what());
 }
 
 /// How deep the bodies of a contact overlap, as meshed or as its gap says:
@@ -233,13 +225,11 @@ void lintModel(const SceneDescription& scene, const Model& model, Faults& faults
     if (const auto centre = freeRotation(model, static_cast<int>(b)))
       faults.add("free-rotation", scene.bodies[b].where,
                  "body " + scene.bodies[b].name + " may turn about " +
-                     placeText(*centre, extent(model.bodies[b].mesh())) +
+                     computedPlace(*centre, extent(model.bodies[b].mesh())) +
                      ": neither its supports nor contact without friction hold it");
   if (scene.time.controlled()) return;  // steps see what there is
-  for (const std::string& warning : loadsBetweenSteps(scene, model)) {
-    const auto [place, text] = splitPlace(warning);
-    faults.add("load-between-steps", place, text);
-  }
+  for (const std::string& warning : loadsBetweenSteps(scene, model))
+    faults.add("load-between-steps", warning);
 }
 
 void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults) {

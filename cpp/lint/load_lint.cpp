@@ -16,22 +16,7 @@ using Kind = SampledDatum::Kind;
 
 /// The `file:line` with which the messages about an expression begin.
 std::string placeOf(const Expression& expression) {
-  const size_t end = expression.where.find(": ");
-  return expression.where.substr(0, end);
-}
-
-bool flowsAnywhere(const BodyDescription& body) {
-  const auto materials = materialsOf(body);
-  return std::any_of(materials.begin(), materials.end(),
-                     [](const MaterialDescription* m) { return m->flows(); });
-}
-
-/// Whether contact follows a body, which may move far then.
-bool isFollowed(const SceneDescription& scene, const std::string& body) {
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
-    return contact.sliding == SlidingKind::finite &&
-           (contact.nonmortar.body == body || contact.mortar.body == body);
-  });
+  return expression.where.substr(0, expression.where.find(": "));
 }
 
 void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& faults) {
@@ -46,7 +31,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + digits(most, 4) + " " + length +
                      " is prescribed on a body of " + digits(datum.size, 4) + " " + length);
-  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flowsAnywhere(body) &&
+  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && mayFlow(body) &&
              datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
                subject + "a load of " + digits(datum.largest(0), 4) + " " +
@@ -179,7 +164,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
         "other than 0");
     return;
   }
-  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flowsAnywhere);
+  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), mayFlow);
   if (elastic && !changes && !time.controlled() && time.steps > 1)
     faults.add("constant-loads", input.where({"time", "steps"}),
                "nothing depends on time: of " + std::to_string(time.steps) + " steps the first one says all");

@@ -4,7 +4,9 @@
 
 #include "base/digits.h"
 #include "base/disjoint_sets.h"
+#include "base/formatted.h"
 #include "lint/lint.h"
+#include "mesh/box_of.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -12,10 +14,6 @@ namespace {
 
 /// Points closer than this part of the extent are the same.
 constexpr double coincident = 1e-9;
-
-std::string at(const Point& p) {
-  return "(" + digits(p.x(), 4) + ", " + digits(p.y(), 4) + ")";
-}
 
 std::string triangle(const TriangleMesh& mesh, int t) {
   return mesh.name + ": triangle " + std::to_string(t + 1);
@@ -54,7 +52,7 @@ void findParts(const TriangleMesh& mesh, Faults& faults) {
     faults.add("mesh-parts", triangle(mesh, t),
                counted(triangles.size(), "part") + " that share no vertex, the smallest has " +
                    counted(smallest->second, "triangle") + ", one of them at " +
-                   at(mesh.vertices[mesh.triangles[t][0]]));
+                   placeText(mesh.vertices[mesh.triangles[t][0]]));
   }
   if (hinges.empty()) return;
   const int v = hinges.front();
@@ -62,7 +60,7 @@ void findParts(const TriangleMesh& mesh, Faults& faults) {
   const auto end = std::unique(hinges.begin(), hinges.end());
   faults.add("hinge", vertex(mesh, v),
              counted(end - hinges.begin(), "vertex") +
-                 " at which parts hang together by nothing else, this one at " + at(mesh.vertices[v]));
+                 " at which parts hang together by nothing else, this one at " + placeText(mesh.vertices[v]));
 }
 
 /// Boundary vertices that lie where another one does, and boundary edges that do.
@@ -96,14 +94,14 @@ void findDoubles(const TriangleMesh& mesh, const Topology& topology, const Segme
   if (!cracks.empty()) {
     faults.add("crack", vertex(mesh, cracks.front()->from),
                counted(cracks.size(), "edge") + " with double nodes, as a crack has, one at " +
-                   at(mesh.vertices[cracks.front()->from]));
+                   placeText(mesh.vertices[cracks.front()->from]));
     return;
   }
   const auto first =
       std::find_if(twin.begin(), twin.end(), [](const auto& v) { return v.first != v.second; });
   faults.add("duplicate-node", vertex(mesh, first->first),
              counted(twin.size(), "vertex") + " lie in one place with another, this one with vertex " +
-                 std::to_string(first->second + 1) + " at " + at(mesh.vertices[first->first]));
+                 std::to_string(first->second + 1) + " at " + placeText(mesh.vertices[first->first]));
 }
 
 void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, const SegmentTree& tree,
@@ -124,7 +122,7 @@ void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, const 
   if (hanging.empty()) return;
   faults.add("hanging-node", vertex(mesh, hanging.front()),
              counted(hanging.size(), "vertex") + " on an edge without being one of its ends, this one at " +
-                 at(mesh.vertices[hanging.front()]));
+                 placeText(mesh.vertices[hanging.front()]));
 }
 
 void findCrossings(const TriangleMesh& mesh, const Topology& topology, const SegmentTree& tree,
@@ -148,7 +146,7 @@ void findCrossings(const TriangleMesh& mesh, const Topology& topology, const Seg
               [&](int e) { found = found || crosses(segment, tree.segments()[e]); });
     if (!found) continue;
     faults.add("mesh-overlaps-itself", triangle(mesh, topology.boundary[i].triangle),
-               "its boundary crosses itself near " + at(segment[0]));
+               "its boundary crosses itself near " + placeText(segment[0]));
     return;
   }
 }
@@ -191,8 +189,8 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool r
 
 void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults& faults) {
   constexpr double far = 1e5;
-  const auto [lower, upper] = boundingBox(mesh);
-  const double distance = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const auto box = boxOf(mesh.vertices);
+  const double distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   if (distance <= far * extent(mesh)) return;
   faults.add("far-from-origin", mesh.name,
              "coordinates up to " + digits(distance, 7) + " " + length + " for an extent of " +

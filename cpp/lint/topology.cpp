@@ -43,13 +43,4 @@ double distanceToSegment(const Point& p, const std::array<Point, 2>& segment) {
   return (p - segment[0] - s * along).norm();
 }
 
-std::array<Point, 2> boundingBox(const TriangleMesh& mesh) {
-  std::array<Point, 2> box{mesh.vertices[0], mesh.vertices[0]};
-  for (const Point& p : mesh.vertices) {
-    box[0] = box[0].cwiseMin(p);
-    box[1] = box[1].cwiseMax(p);
-  }
-  return box;
-}
-
 }  // namespace mortier

@@ -59,7 +59,4 @@ class SegmentTree {
 /// [m]
 double distanceToSegment(const Point& p, const std::array<Point, 2>& segment);
 
-/// Lower left and upper right corner of all vertices [m].
-std::array<Point, 2> boundingBox(const TriangleMesh& mesh);
-
 }  // namespace mortier

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/error.h"
+#include "mesh/box_of.h"
 
 namespace mortier {
 namespace {
@@ -145,13 +146,7 @@ void validate(TetrahedronMesh& mesh) {
 }
 
 double extent(const TetrahedronMesh& mesh) {
-  SpacePoint lower = mesh.vertices.front();
-  SpacePoint upper = lower;
-  for (const SpacePoint& vertex : mesh.vertices) {
-    lower = lower.cwiseMin(vertex);
-    upper = upper.cwiseMax(vertex);
-  }
-  return (upper - lower).maxCoeff();
+  return boxOf(mesh.vertices).sizes().maxCoeff();
 }
 
 std::vector<int> boundaryLabels(const TetrahedronMesh& mesh) {

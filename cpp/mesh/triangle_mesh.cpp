@@ -8,6 +8,7 @@
 
 #include "base/digits.h"
 #include "base/error.h"
+#include "mesh/box_of.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -195,12 +196,7 @@ double doubleArea(const TriangleMesh& mesh, int t) {
 
 double extent(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return 0;
-  Point lower = mesh.vertices[0], upper = lower;
-  for (const Point& p : mesh.vertices) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
-  return (upper - lower).maxCoeff();
+  return boxOf(mesh.vertices).sizes().maxCoeff();
 }
 
 double aspectRatio(const TriangleMesh& mesh, int t) {

@@ -8,24 +8,11 @@
 #include "base/digits.h"
 #include "plan/loads.h"
 #include "scene/document.h"
+#include "scene/resolve.h"
 #include "time/quantity.h"
 
 namespace mortier {
 namespace {
-
-/// Whether cells are cut by both diagonals: most triangles have a corner inside the mesh with four triangles
-/// around it.
-bool crossed(const TriangleMesh& mesh) {
-  constexpr double most = 0.9;
-  std::vector<int> around(mesh.vertices.size(), 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const int v : triangle) ++around[v];
-  const auto inCell = [&](const std::array<int, 3>& triangle) {
-    return std::any_of(triangle.begin(), triangle.end(), [&](int v) { return around[v] == 4; });
-  };
-  const auto count = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), inCell);
-  return static_cast<double>(count) > most * static_cast<double>(mesh.triangles.size());
-}
 
 /// The bodies that flow and touch one that is much softer, each once.
 std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Model& model) {
@@ -81,6 +68,7 @@ bool meshesMatch(const ContactInterface& interface) {
 
 std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Model& model) {
   constexpr double incompressible = 0.49;
+  constexpr double crossed = 0.9;  // of the triangles
   std::vector<std::string> doubts = stiffAndFlowing(scene, model);
   const auto falseStresses = [&](const ContactInterface& interface) {
     return !model.bodies[interface.pair().mortar.body].rigid() &&
@@ -98,7 +86,7 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
       doubts.push_back(
           "body " + model.bodies[b].name() +
           " is nearly incompressible, of whose error with quadratic displacements it sees 0.5 to 1.2");
-    else if (keepsVolume && !crossed(model.bodies[b].mesh()))
+    else if (keepsVolume && !(crossedPart(model.bodies[b].mesh()) > crossed))
       doubts.push_back("body " + model.bodies[b].name() +
                        " is nearly incompressible and locks on cells with one diagonal, of which it sees "
                        "0.38 to 1.2");

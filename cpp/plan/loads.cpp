@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <optional>
 
-namespace mortier {
+#include "base/formatted.h"
 
-std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body) {
-  std::vector<const MaterialDescription*> materials{&body.material};
-  for (const RegionDescription& region : body.regions)
-    if (region.material) materials.push_back(&*region.material);
-  return materials;
-}
+namespace mortier {
 
 MeshedScene meshedScene(const SceneDescription& scene, const Model& model) {
   MeshedScene result{scene, {}};
@@ -198,22 +192,14 @@ std::string drivingDatum(const MeshedScene& input, double from, double to) {
     most = &datum;
   }
   if (most == nullptr) return "";
-  char sizes[160];
   const char* unit = input.scene.units.time.c_str();
-  std::snprintf(sizes, sizeof sizes, ", of size %.4g at t = %.6g %.16s and %.4g at t = %.6g %.16s",
-                most->largest(from), from, unit, most->largest(to), to, unit);
-  return most->value->where + sizes;
+  return most->value->where + formatted(", of size %.4g at t = %.6g %.16s and %.4g at t = %.6g %.16s",
+                                        most->largest(from), from, unit, most->largest(to), to, unit);
 }
 
 bool hasFriction(const SceneDescription& scene) {
   return std::any_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactDescription& contact) { return contact.friction.any(); });
-}
-
-bool mayFlow(const BodyDescription& body) {
-  const auto materials = materialsOf(body);
-  return std::any_of(materials.begin(), materials.end(),
-                     [](const MaterialDescription* each) { return each->flows(); });
 }
 
 bool stepsMatter(const SceneDescription& scene) {

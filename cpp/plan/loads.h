@@ -19,9 +19,6 @@ struct MeshedScene {
 
 MeshedScene meshedScene(const SceneDescription& scene, const Model& model);
 
-/// The material of a body and those of its regions.
-std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body);
-
 /// A condition of a body with the points at which it is tried.
 struct SampledDatum {
   enum class Kind { displacement, traction, force, temperature, distance };
@@ -66,9 +63,6 @@ std::string drivingDatum(const MeshedScene& input, double from, double to);
 // away, so where bodies flow or slip a part of what is asked (0.2 of it, 0.3 at degree 2) is their tolerance.
 
 bool hasFriction(const SceneDescription& scene);
-
-/// Whether a material of a body can flow.
-bool mayFlow(const BodyDescription& body);
 
 /// Whether a material of the scene can flow, or a contact has friction.
 bool stepsMatter(const SceneDescription& scene);

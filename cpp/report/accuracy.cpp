@@ -70,6 +70,11 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks, std::vector<QuantityError> qu
   return result;
 }
 
+std::optional<double> overExact(double error, double norm) {
+  if (error == 0) return 0;
+  return error < norm ? std::optional(error / (norm - error)) : std::nullopt;
+}
+
 std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity) {
   constexpr double noticeable = 0.05;  // of the value, a round
   constexpr double hardlyLess = 0.5;   // than the change of the round before

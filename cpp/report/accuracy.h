@@ -95,6 +95,9 @@ struct Accuracy {
   std::vector<QuantityError> quantities = {};  ///< of the meshes; empty where the run is not complete
 };
 
+/// An error over the exact norm, by the norm that was found; none where it is not below 100 %.
+std::optional<double> overExact(double error, double norm);
+
 /// What a run came to.
 struct Solved {
   State state;      ///< the last one that was reached

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "material/stress.h"
 #include "report/manifest.h"
 #include "solver/state.h"
@@ -198,9 +199,7 @@ CellFields cellFields(const Body& body, const BodyState& state) {
 }
 
 std::string fieldName(const std::string& body, int step) {
-  std::string number = std::to_string(step);
-  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
-  return body + "_" + number + ".vtu";
+  return body + formatted("_%06d.vtu", step);
 }
 
 void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept) {
@@ -253,11 +252,9 @@ std::map<std::string, FileRecord> Fields::close() {
           "<Collection>\n";
   for (const KeptFields& kept : kept_)
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
-      char time[32];
-      std::snprintf(time, sizeof time, "%.17g", kept.time);
-      file << "<DataSet timestep=\"" << std::string(time) << "\" group=\"\" part=\"" << b << "\" name=\""
-           << model_.bodies[b].name() << "\" file=\"" << fieldName(model_.bodies[b].name(), kept.step)
-           << "\"/>\n";
+      file << "<DataSet timestep=\"" << formatted("%.17g", kept.time) << "\" group=\"\" part=\"" << b
+           << "\" name=\"" << model_.bodies[b].name() << "\" file=\""
+           << fieldName(model_.bodies[b].name(), kept.step) << "\"/>\n";
     }
   file << "</Collection>\n</VTKFile>\n";
   for (const KeptFields& kept : kept_) written.insert(kept.files.begin(), kept.files.end());

@@ -2,24 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "base/digits.h"
+#include "base/formatted.h"
 #include "report/clock.h"
 
 namespace mortier {
 
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...) {
-  std::va_list arguments;
-  va_start(arguments, pattern);
-  char text[512];
-  const int size = std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return {text, static_cast<size_t>(std::clamp<int>(size, 0, sizeof text - 1))};
-}
 
 /// What became of end nodes whose normal motion is prescribed.
 std::string heldEnds(const ContactInterface& interface) {
@@ -53,6 +43,10 @@ std::string materials(const Body& body, const Units& units) {
 }
 
 }  // namespace
+
+std::string word(Status status) {
+  return status == Status::converged ? "converged" : status == Status::failed ? "failed" : "unheld";
+}
 
 std::string logHeader(const RunFacts& facts, const Model& model) {
   std::string text;
@@ -88,61 +82,6 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   return text;
 }
 
-std::string logStepsHeader(const Units& units) {
-  return formatted("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
-                   ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
-                   ("penetration[" + units.penetration() + "]").c_str(),
-                   ("max p[" + units.stress + "]").c_str(), "viscoplastic",
-                   ("force[" + units.forcePerDepth() + "]").c_str());
-}
-
-std::string logRoundsHeader(const Model& model) {
-  return formatted(" round %10s  unknowns  steps  mesh error  time error  seconds\n",
-                   model.bodies.front().space() != nullptr ? "tetrahedra" : "triangles");
-}
-
-std::string logRound(const std::vector<RoundFacts>& rounds) {
-  const RoundFacts& last = rounds.back();
-  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.elements,
-                   last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
-}
-
-std::string logRow(const StepReport& r) {
-  std::string remarks = r.rung == Rung::newton ? "" : std::string("  ") + nameOf(r.rung);
-  if (r.guarded) remarks += "  guarded";
-  if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
-  if (const size_t found = r.solutions.listed.size(); found > 1)
-    remarks += "  one of " + std::to_string(found) + " solutions";
-  else if (r.solutions.ambiguous)
-    remarks += "  several solutions possible";
-  const std::string change = formatted("%d (+%d/-%d)", r.active, r.joined, r.left);
-  return formatted("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
-                   r.iterations, change.c_str(),
-                   std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
-                   r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
-}
-
-std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before) {
-  std::string text;
-  const auto passes = [](const Peak& peak, const Peak& earlier, double most) {
-    return peak.value > most && !(earlier.value > most);
-  };
-  if (passes(peaks.strain, before.strain, smallStrain))
-    text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
-                      100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
-  if (passes(peaks.rotation, before.rotation, smallRotation))
-    text += formatted(
-        "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
-        peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());
-  return text;
-}
-
-std::string logTrial(double error, double tolerance) {
-  return formatted(
-      "           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n", error,
-      tolerance);
-}
-
 namespace {
 
 std::string logStatus(const RunReport& report, const std::string& folder) {
@@ -164,52 +103,53 @@ std::string logVerification(const Certificate& w) {
       w.rounding);
 }
 
+std::string line(const std::string& text) {
+  return "           " + text + "\n";
+}
+
 std::string logBound(const EnergyBound& bound) {
-  if (!bound.obstacle.empty()) return "           no guaranteed bound: " + bound.obstacle + "\n";
+  if (!bound.obstacle.empty()) return line("no guaranteed bound: " + bound.obstacle);
   const double relative = bound.relative();
-  if (!std::isfinite(relative))
-    return "           guaranteed: nothing below 100 %, the meshes are too coarse\n";
+  if (!std::isfinite(relative)) return line("guaranteed: nothing below 100 %, the meshes are too coarse");
   constexpr double rounding = 1e-12;
-  if (bound.bound <= rounding * bound.norm) return "           guaranteed: below rounding\n";
-  std::string text = formatted("           guaranteed: at most %.2g %%", 100 * relative);
+  if (bound.bound <= rounding * bound.norm) return line("guaranteed: below rounding");
+  std::string text = formatted("guaranteed: at most %.2g %%", 100 * relative);
   if (bound.oscillation > rounding)
     text += formatted(", %.1g %% of it for data between the nodes", 100 * bound.oscillation);
-  return text + "\n";
+  return line(text);
 }
 
 std::string logFlow(const FlowBound& bound) {
-  const std::string none = "           no guaranteed bound in time: ";
-  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  const std::string none = "no guaranteed bound in time: ";
+  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
   const bool any = !bound.moved.empty();
-  if (any && !std::isfinite(bound.factor)) return none + bound.moved + "\n";
-  const double error = (any ? bound.factor : 1) * bound.strain;
-  if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %, steps are too long\n";
-  std::string text = formatted("           guaranteed in time: viscoplastic strain to %.2g %%",
-                               error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
-  if (!any && !(bound.factor <= 1)) text += ", contact closed and open as in the run";
-  return text + "\n";
+  if (any && !std::isfinite(bound.factor)) return line(none + bound.moved);
+  const auto strain = overExact((any ? bound.factor : 1) * bound.strain, bound.strainNorm);
+  if (!strain) return line(none + "nothing below 100 %, steps are too long");
+  return line(formatted("guaranteed in time: viscoplastic strain to %.2g %%", 100 * *strain) +
+              (!any && !(bound.factor <= 1) ? ", contact closed and open as in the run" : ""));
 }
 
 std::string logTotal(const TotalBound& bound) {
-  const std::string none = "           no guaranteed bound of steps and meshes: ";
-  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  const std::string none = "no guaranteed bound of steps and meshes: ";
+  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
   const bool any = !bound.moved.empty();
-  const double error = (any ? bound.any : bound.fixed).strain;
-  if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %\n";
-  std::string text = formatted("           guaranteed of steps and meshes: viscoplastic strain to %.2g %%",
-                               error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
+  const auto strain = overExact((any ? bound.any : bound.fixed).strain, bound.strainNorm);
+  if (!strain) return line(none + "nothing below 100 %");
+  std::string text =
+      formatted("guaranteed of steps and meshes: viscoplastic strain to %.2g %%", 100 * *strain);
   if (!any && !(bound.closes.empty() && bound.any.strain <= bound.fixed.strain)) {
     text += ", contact closed and open as in the run";
-    if (bound.closes.empty() && bound.any.strain < bound.strainNorm)
-      text += formatted("; to %.2g %% whatever contact does",
-                        100 * bound.any.strain / (bound.strainNorm - bound.any.strain));
+    const auto whatever = overExact(bound.any.strain, bound.strainNorm);
+    if (bound.closes.empty() && whatever)
+      text += formatted("; to %.2g %% whatever contact does", 100 * *whatever);
   }
-  return text + "\n";
+  return line(text);
 }
 
 std::string logStep(const EnergyBound& bound) {
-  const std::string none = "           no guaranteed bound of the last step: ";
-  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  const std::string none = "no guaranteed bound of the last step: ";
+  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
   std::string parts;
   const auto add = [&](const char* what, double error, double norm) {
     if (!(2 * error < norm)) return;  // not below 100 % of the exact one
@@ -218,8 +158,17 @@ std::string logStep(const EnergyBound& bound) {
   };
   add("viscoplastic strain", bound.strain, bound.strainNorm);
   add("stress", bound.bound, bound.norm);
-  if (parts.empty()) return none + "nothing below 100 %, the meshes are too coarse\n";
-  return "           guaranteed in the last step: " + parts + "\n";
+  return line(parts.empty() ? none + "nothing below 100 %, the meshes are too coarse"
+                            : "guaranteed in the last step: " + parts);
+}
+
+std::string logBounds(const Accuracy& accuracy) {
+  std::string text;
+  if (accuracy.bound) text += logBound(*accuracy.bound);
+  if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
+  if (accuracy.bound && accuracy.total) text += logTotal(*accuracy.total);
+  if (accuracy.step) text += logStep(*accuracy.step);
+  return text;
 }
 
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
@@ -245,10 +194,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
     text += formatted("           largest of the run: %.2g %% of its largest stress, at t = %.5g %s\n",
                       100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
-  if (accuracy.bound) text += logBound(*accuracy.bound);
-  if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
-  if (accuracy.bound && accuracy.total) text += logTotal(*accuracy.total);
-  if (accuracy.step) text += logStep(*accuracy.step);
+  text += logBounds(accuracy);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)

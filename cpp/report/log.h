@@ -1,21 +1,13 @@
 // The log on standard output: what is solved, a row per step, how it ended and how well the equations hold.
 #pragma once
 
-#include <cstdio>
 #include <string>
 
+#include "base/formatted.h"
 #include "base/types.h"
 #include "report/accuracy.h"
 
 namespace mortier {
-
-/// "(0.5, 1)", in space "(0.5, 1, 2)", to four digits.
-inline std::string placeText(const SpacePoint& place, int dimension) {
-  char text[96];
-  std::snprintf(text, sizeof text, dimension == 3 ? "(%.4g, %.4g, %.4g)" : "(%.4g, %.4g)", place.x(),
-                place.y(), place.z());
-  return text;
-}
 
 /// What is solved: bodies, interfaces.
 std::string logHeader(const RunFacts& facts, const Model& model);
@@ -70,6 +62,13 @@ class Log {
 /// \throws OutputError when a number is not finite.
 std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
                         const Solved& solved);
+
+// Guaranteed bounds in it. \tparam Json  nlohmann's, which only sources know
+template <class Json>
+Json jsonOfBounds(const Accuracy& accuracy);
+/// Of the error of a quantity.
+template <class Json>
+Json jsonOfBound(const EnergyBound& bound, size_t quantity, double value);
 
 /// "converged", "failed", "unheld".
 std::string word(Status status);

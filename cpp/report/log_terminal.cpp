@@ -1,13 +1,70 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
+#include "base/formatted.h"
 #include "report/clock.h"
 #include "report/log.h"
 
 namespace mortier {
+
+std::string logStepsHeader(const Units& units) {
+  return formatted("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
+                   ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
+                   ("penetration[" + units.penetration() + "]").c_str(),
+                   ("max p[" + units.stress + "]").c_str(), "viscoplastic",
+                   ("force[" + units.forcePerDepth() + "]").c_str());
+}
+
+std::string logRoundsHeader(const Model& model) {
+  return formatted(" round %10s  unknowns  steps  mesh error  time error  seconds\n",
+                   model.bodies.front().space() != nullptr ? "tetrahedra" : "triangles");
+}
+
+std::string logRound(const std::vector<RoundFacts>& rounds) {
+  const RoundFacts& last = rounds.back();
+  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.elements,
+                   last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
+}
+
+std::string logRow(const StepReport& r) {
+  std::string remarks = r.rung == Rung::newton ? "" : std::string("  ") + nameOf(r.rung);
+  if (r.guarded) remarks += "  guarded";
+  if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
+  if (const size_t found = r.solutions.listed.size(); found > 1)
+    remarks += "  one of " + std::to_string(found) + " solutions";
+  else if (r.solutions.ambiguous)
+    remarks += "  several solutions possible";
+  const std::string change = formatted("%d (+%d/-%d)", r.active, r.joined, r.left);
+  return formatted("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
+                   r.iterations, change.c_str(),
+                   std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
+                   r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
+}
+
+std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before) {
+  std::string text;
+  const auto passes = [](const Peak& peak, const Peak& earlier, double most) {
+    return peak.value > most && !(earlier.value > most);
+  };
+  if (passes(peaks.strain, before.strain, smallStrain))
+    text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
+                      100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
+  if (passes(peaks.rotation, before.rotation, smallRotation))
+    text += formatted(
+        "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
+        peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());
+  return text;
+}
+
+std::string logTrial(double error, double tolerance) {
+  return formatted(
+      "           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n", error,
+      tolerance);
+}
 
 Log::Log(bool quiet, double endTime)
     : quiet_(quiet),

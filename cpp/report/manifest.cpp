@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +17,7 @@
 
 #include "base/checksum.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/whole_file.h"
 
 namespace mortier {
@@ -27,12 +29,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* format = "mortier result 1";
-
-std::string hexadecimal(uint64_t number) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(number));
-  return text.data();
-}
 
 bool isNumber(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -64,7 +60,7 @@ void writeManifest(const std::string& folder, const Manifest& manifest) {
   json["status"] = manifest.failed ? "failed" : "complete";
   json["files"] = Json::object();
   for (const auto& [name, record] : manifest.files)
-    json["files"][name] = {{"bytes", record.bytes}, {"fnv1a", hexadecimal(record.checksum)}};
+    json["files"][name] = {{"bytes", record.bytes}, {"fnv1a", formatted("%016" PRIx64, record.checksum)}};
   writeWhole(folder + "/" + manifestName, json.dump(2) + "\n", true);
 }
 

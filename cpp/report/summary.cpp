@@ -165,36 +165,6 @@ Json jsonOf(const std::vector<SeveralSolutions>& several) {
   return list;
 }
 
-/// A bound over the exact norm; null where it is not below 100 %.
-Json over(double error, double norm) {
-  return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
-}
-
-/// Bounds of viscoplastic strain and stress, of FlowBound or TotalBound.
-template <class Bound>
-Json strainAndStress(const Bound& bound, double strain, double stress) {
-  return {{"viscoplastic_strain", over(strain, bound.strainNorm)},
-          {"stress", over(stress, bound.stressNorm)}};
-}
-
-Json jsonOf(const EnergyBound& bound) {
-  if (!bound.obstacle.empty()) return {{"energy_error", nullptr}, {"reason", bound.obstacle}};
-  return {{"energy_error", over(bound.bound, bound.norm)},
-          {"absolute", bound.bound},
-          {"norm", bound.norm},
-          {"stress", bound.stress},
-          {"lift", bound.lift},
-          {"gap", std::sqrt(2 * bound.gap)},
-          {"data", bound.oscillation}};
-}
-Json jsonOfStep(const EnergyBound& bound) {
-  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
-  Json json = jsonOf(bound);
-  json["viscoplastic_strain"] = over(bound.strain, bound.strainNorm);
-  json["flow"] = bound.flow;
-  return json;
-}
-
 /// Where to look at, and why it is hard there.
 Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) {
   return {{"body", model.bodies[stuck.body].name()},
@@ -203,46 +173,6 @@ Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) 
           {"material_residual", stuck.residual},
           {"time", stuck.time},
           {"driven_by", facts.driving}};
-}
-
-/// Of the error of a quantity.
-Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
-  if (bound.quantities.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
-  const Enclosure& enclosure = bound.quantities[quantity];
-  if (!enclosure.obstacle.empty()) {
-    Json json = {{"error", nullptr}, {"reason", enclosure.obstacle}};
-    if (enclosure.estimate) json["estimate"] = *enclosure.estimate;
-    return json;
-  }
-  return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
-}
-
-Json jsonOf(const FlowBound& bound) {
-  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
-  const auto all = [&](double factor) {
-    return strainAndStress(bound, factor * bound.strain, factor * bound.stress);
-  };
-  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}, {"reason", bound.moved}};
-  if (bound.moved.empty()) json = all(1);
-  json["any_contact"] = std::isfinite(bound.factor) ? all(bound.factor) : Json(nullptr);
-  json["data"] = bound.data;
-  return json;
-}
-
-Json jsonOf(const TotalBound& bound) {
-  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
-  const auto all = [&](const TotalBound::Errors& errors) {
-    return strainAndStress(bound, errors.strain, errors.stress);
-  };
-  const auto unless = [&](const std::string& reason, const TotalBound::Errors& errors) {
-    if (reason.empty()) return all(errors);
-    return Json{{"viscoplastic_strain", nullptr}, {"stress", nullptr}, {"reason", reason}};
-  };
-  Json json = unless(bound.moved, bound.fixed);
-  json["any_contact"] = unless(bound.closes, bound.any);
-  json["lift"] = over(bound.lifted, bound.strainNorm);
-  json["data"] = bound.data;
-  return json;
 }
 
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
@@ -255,10 +185,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody},
                        {"at", jsonOf(accuracy.worst, model.bodies.front().dimension())}};
-  if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
-  if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
-  if (accuracy.bound && accuracy.total) json["bound"]["total"] = jsonOf(*accuracy.total);
-  if (accuracy.bound && accuracy.step) json["bound"]["step"] = jsonOfStep(*accuracy.step);
+  if (accuracy.bound) json["bound"] = jsonOfBounds<Json>(accuracy);
   return json;
 }
 
@@ -341,7 +268,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     const std::optional<RoundChange> change = changeInRounds(facts, i);
     quantity["change_in_last_round"] = change ? Json(change->size) : Json(nullptr);
     if (change && change->grows) quantity["grows_with_rounds"] = true;
-    if (accuracy.bound) quantity["bound"] = jsonOf(*accuracy.bound, i, values[i]);
+    if (accuracy.bound) quantity["bound"] = jsonOfBound<Json>(*accuracy.bound, i, values[i]);
   }
   Json& errors = json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) {
@@ -366,10 +293,6 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["scene_text"] = facts.sceneText;
   requireFiniteNumbers(json, path);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-std::string word(Status status) {
-  return status == Status::converged ? "converged" : status == Status::failed ? "failed" : "unheld";
 }
 
 }  // namespace mortier

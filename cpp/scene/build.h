@@ -29,6 +29,27 @@ std::string findInitialEquilibrium(const SceneDescription& scene, const Model& m
 std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length);
 
 // Parts of a model. \throws InputError
+
+inline const std::vector<std::array<int, 3>>& elementsOf(const TriangleMesh& mesh) {
+  return mesh.triangles;
+}
+inline const std::vector<std::array<int, 4>>& elementsOf(const TetrahedronMesh& mesh) {
+  return mesh.tetrahedra;
+}
+
+/// Centres of a few hundred elements: enough to find an expression that has no value.
+template <class Mesh>
+auto centresOf(const Mesh& mesh) {
+  std::decay_t<decltype(mesh.vertices)> places;
+  const auto& elements = elementsOf(mesh);
+  for (size_t e = 0; e < elements.size(); e += 1 + elements.size() / 500) {
+    auto& centre = places.emplace_back(mesh.vertices[elements[e][0]]);
+    for (size_t k = 1; k < elements[e].size(); ++k) centre += mesh.vertices[elements[e][k]];
+    centre /= static_cast<double>(elements[e].size());
+  }
+  return places;
+}
+
 /// \param plane  none in space \param angles  of its axes at all of its points, one where they are the same
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<double>& angles = {0});

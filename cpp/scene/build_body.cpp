@@ -13,64 +13,24 @@ namespace mortier {
 
 namespace {
 
-/// The middles of the edges of a label.
-std::vector<Point> middlesOn(const TriangleMesh& mesh, int label) {
+/// Where a condition acts: its point, or the vertices of its label, of a traction the middles of edges too.
+std::vector<Point> placesOf(const ConditionDescription& condition, const TriangleMesh& mesh) {
+  if (condition.point) return {*condition.point};
   std::vector<Point> points;
-  for (const auto& [a, b] : edgesOn(mesh, label))
-    points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-  return points;
-}
-
-/// A few hundred centres of triangles are enough to find an expression that has no value.
-std::vector<Point> centres(const TriangleMesh& mesh) {
-  std::vector<Point> points;
-  const size_t stride = 1 + mesh.triangles.size() / 500;
-  for (size_t t = 0; t < mesh.triangles.size(); t += stride) {
-    const auto [a, b, c] = mesh.triangles[t];
-    points.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
-  }
+  if (condition.kind == ConditionDescription::Kind::traction)
+    for (const auto& [a, b] : edgesOn(mesh, condition.label))
+      points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+  for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
   return points;
 }
 
 /// Where it acts, over the run: of a value that passes zero only this has digits.
 double largestOf(const ConditionDescription& condition, const TriangleMesh& mesh,
                  const std::vector<double>& times) {
-  std::vector<Point> points;
-  if (condition.point)
-    points.push_back(*condition.point);
-  else
-    for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
   double largest = 0;
-  for (const Point& p : points)
+  for (const Point& p : placesOf(condition, mesh))
     for (const double t : times) largest = std::max(largest, std::abs(condition.value.value(p[0], p[1], t)));
   return largest;
-}
-
-/// Displacements, tractions, forces and initial stresses, at points where each acts and at the times [s].
-/// \throws InputError with the first value that is not finite.
-void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
-                       const std::vector<double>& times) {
-  for (const ConditionDescription& condition : body.conditions) {
-    if (condition.value.constant) continue;
-    std::vector<Point> points;
-    if (condition.kind == ConditionDescription::Kind::traction) points = middlesOn(mesh, condition.label);
-    if (condition.point) {
-      points.push_back(*condition.point);
-    } else {
-      for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
-    }
-    requireFinite(condition.value, points, times);
-  }
-  for (const std::optional<Expression>& force : body.force) {
-    if (force && !force->constant) requireFinite(*force, centres(mesh), times);
-  }
-  const auto requireFiniteStress = [&](const StressDescription& stress) {
-    for (const std::optional<Expression>& component : stress) {
-      if (component && !component->constant) requireFinite(*component, centres(mesh), {0});
-    }
-  };
-  requireFiniteStress(body.initialStress);
-  for (const RegionDescription& region : body.regions) requireFiniteStress(region.initialStress);
 }
 
 /// Where labels or points meet, all may prescribe a motion of a node, but not differently. `displacements`
@@ -170,10 +130,12 @@ std::shared_ptr<const Material> materialOfRegions(
 
 namespace {
 
-void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
+void addInitialStress(const StressDescription& stress, std::optional<int> region, const TriangleMesh& mesh,
+                      Conditions& conditions) {
   for (size_t c = 0; c < stress.size(); ++c) {
-    if (stress[c])
-      conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
+    if (!stress[c]) continue;
+    requireFinite(*stress[c], centresOf(mesh), {0});
+    conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
   }
 }
 
@@ -200,10 +162,7 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     (held ? motion.held : motion.force)[c.component] = finiteValue(c.value);
   }
-  motion.turns =
-      tool.turns() && std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const auto& contact) {
-        return contact.mortar.body == tool.name && contact.sliding == SlidingKind::finite;
-      });
+  motion.turns = tool.turns() && isFollowed(scene, tool.name);
   Conditions conditions;
   conditions.rigid = std::move(motion);
   return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane), std::move(conditions),
@@ -215,9 +174,12 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
   if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
+  const bool axisymmetric = scene.plane == Plane::axisymmetric;
+  if (axisymmetric) mesh = meshAboutAxis(std::move(mesh));
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
+    requireFinite(c.value, placesOf(c, mesh), times);
     if (c.kind == ConditionDescription::Kind::displacement) {
       conditions.displacements.push_back({c.label, c.component, finiteValue(c.value), c.point});
       displacements.push_back(&c);
@@ -225,16 +187,15 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
       conditions.tractions.push_back({c.label, c.component, finiteValue(c.value)});
     }
   }
-  const bool axisymmetric = scene.plane == Plane::axisymmetric;
-  if (axisymmetric) mesh = meshAboutAxis(std::move(mesh));
-  requireFiniteData(body, mesh, times);
-  requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
   for (const int c : {0, 1}) {
-    if (body.force[c]) conditions.forces.push_back({c, finiteValue(*body.force[c])});
+    if (!body.force[c]) continue;
+    requireFinite(*body.force[c], centresOf(mesh), times);
+    conditions.forces.push_back({c, finiteValue(*body.force[c])});
   }
-  addInitialStress(body.initialStress, std::nullopt, conditions);
+  addInitialStress(body.initialStress, std::nullopt, mesh, conditions);
   for (const RegionDescription& region : body.regions)
-    addInitialStress(region.initialStress, region.label, conditions);
+    addInitialStress(region.initialStress, region.label, mesh, conditions);
+  requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
   const std::shared_ptr<const Material> material =
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {

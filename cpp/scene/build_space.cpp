@@ -18,17 +18,6 @@ std::vector<SpacePoint> placesOn(const TetrahedronMesh& mesh, int label) {
   return places;
 }
 
-/// A few hundred centres of tetrahedra are enough to find an expression that has no value.
-std::vector<SpacePoint> centresOf(const TetrahedronMesh& mesh) {
-  std::vector<SpacePoint> places;
-  const size_t stride = 1 + mesh.tetrahedra.size() / 500;
-  for (size_t t = 0; t < mesh.tetrahedra.size(); t += stride) {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    places.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c] + mesh.vertices[d]) / 4);
-  }
-  return places;
-}
-
 /// Where conditions meet, all may prescribe a motion of a node along an axis, but not differently.
 /// \throws InputError with node, time [s] and both values [m].
 void requireOneMotion(const BodyDescription& description, const Body& body,

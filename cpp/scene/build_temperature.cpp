@@ -33,13 +33,6 @@ std::vector<double> readValues(const std::string& path, size_t count, const std:
   return values;
 }
 
-const std::vector<std::array<int, 3>>& elementsOf(const TriangleMesh& mesh) {
-  return mesh.triangles;
-}
-const std::vector<std::array<int, 4>>& elementsOf(const TetrahedronMesh& mesh) {
-  return mesh.tetrahedra;
-}
-
 /// At places, as many in each element, the field that is linear on the elements, by its values at vertices.
 template <class Mesh, class Place>
 std::vector<double> linearOn(const Mesh& mesh, const std::vector<double>& values,

@@ -1,8 +1,10 @@
 // The grammar of formulas, that of muParser, which reads all other expressions (formulas_test.cpp compares).
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/formulas.h"
@@ -81,7 +83,7 @@ class FormulaReader {
   }
   int choice() {
     descend();
-    int result = either();
+    int result = binary(0);
     if (takes("?")) {
       const int yes = choice();
       if (!takes(":")) reject("expected a : to the ?");
@@ -90,58 +92,32 @@ class FormulaReader {
     --depth_;
     return result;
   }
-  int either() {
-    int result = both();
-    while (takes("||")) result = append(Op::either, result, both());
-    return result;
-  }
-  int both() {
-    int result = comparison();
-    while (takes("&&")) result = append(Op::both, result, comparison());
-    return result;
-  }
-  int comparison() {
-    int result = sum();
+  /// An operator between two values.
+  struct Binary {
+    const char* sign;
+    Op op;
+    bool exchanged = false;  ///< a > b is b < a
+  };
+  /// Operators of a level and of those that bind more; a sign comes before those that it begins with.
+  int binary(size_t level) {
+    static const std::vector<std::vector<Binary>> levels{{{"||", Op::either}},
+                                                         {{"&&", Op::both}},
+                                                         {{"<=", Op::lessOrEqual},
+                                                          {">=", Op::lessOrEqual, true},
+                                                          {"==", Op::equal},
+                                                          {"!=", Op::notEqual},
+                                                          {"<", Op::less},
+                                                          {">", Op::less, true}},
+                                                         {{"+", Op::add}, {"-", Op::subtract}},
+                                                         {{"*", Op::multiply}, {"/", Op::divide}}};
+    if (level == levels.size()) return signedPower();
+    int result = binary(level + 1);
     while (true) {
-      if (takes("<=")) {
-        result = append(Op::lessOrEqual, result, sum());
-      } else if (takes(">=")) {
-        const int other = sum();
-        result = append(Op::lessOrEqual, other, result);
-      } else if (takes("==")) {
-        result = append(Op::equal, result, sum());
-      } else if (takes("!=")) {
-        result = append(Op::notEqual, result, sum());
-      } else if (takes("<")) {
-        result = append(Op::less, result, sum());
-      } else if (takes(">")) {
-        const int other = sum();
-        result = append(Op::less, other, result);
-      } else {
-        return result;
-      }
-    }
-  }
-  int sum() {
-    int result = product();
-    while (true) {
-      if (takes("+"))
-        result = append(Op::add, result, product());
-      else if (takes("-"))
-        result = append(Op::subtract, result, product());
-      else
-        return result;
-    }
-  }
-  int product() {
-    int result = signedPower();
-    while (true) {
-      if (takes("*"))
-        result = append(Op::multiply, result, signedPower());
-      else if (takes("/"))
-        result = append(Op::divide, result, signedPower());
-      else
-        return result;
+      const auto found = std::find_if(levels[level].begin(), levels[level].end(),
+                                      [&](const Binary& each) { return takes(each.sign); });
+      if (found == levels[level].end()) return result;
+      const int other = binary(level + 1);
+      result = found->exchanged ? append(found->op, other, result) : append(found->op, result, other);
     }
   }
   int signedPower() {

@@ -100,14 +100,4 @@ class Formulas {
   std::vector<int> results_;
 };
 
-extern template void Formulas::evaluate(const double*, double*, int, std::vector<double>&) const;
-extern template void Formulas::evaluate(const Differentiated<4>*, Differentiated<4>*, int,
-                                        std::vector<Differentiated<4>>&) const;
-extern template void Formulas::evaluate(const Differentiated<6>*, Differentiated<6>*, int,
-                                        std::vector<Differentiated<6>>&) const;
-extern template void Formulas::evaluate(const Differentiated<8>*, Differentiated<8>*, int,
-                                        std::vector<Differentiated<8>>&) const;
-extern template void Formulas::evaluate(const Differentiated<12>*, Differentiated<12>*, int,
-                                        std::vector<Differentiated<12>>&) const;
-
 }  // namespace mortier

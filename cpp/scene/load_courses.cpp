@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "scene/expression.h"
 
 namespace mortier {
@@ -73,12 +73,6 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
       call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar.body)], &contact.nonmortar.label);
 }
 
-std::string text(const char* pattern, double a, double b) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, pattern, a, b);
-  return buffer;
-}
-
 /// Found between the times of peaks, at which it has breaks.
 Course resolvedBetween(const std::function<double(double)>& datum, const std::vector<double>& peaks,
                        double end, int fine) {
@@ -109,8 +103,8 @@ Course courseAt(const Expression& expression, const SpaceDatum& value, const Spa
   Course course = peaks.empty() ? resolve(datum, 0, end, fine) : resolvedBetween(datum, peaks, end, fine);
   if (!course.resolved)
     throw InputError(expression.where +
-                     text(", expected a datum that can be sampled in time: at (%.6g, %.6g", p[0], p[1]) +
-                     (scene.inSpace() ? text(", %.6g", p[2], 0) : "") + ") it varies faster");
+                     formatted(", expected a datum that can be sampled in time: at (%.6g, %.6g", p[0], p[1]) +
+                     (scene.inSpace() ? formatted(", %.6g", p[2]) : "") + ") it varies faster");
   return course;
 }
 
@@ -153,9 +147,9 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
         if (i == std::exchange(last, i)) continue;
         if (const double part = peakBetween(course, k * i, k * (i + 1)).height; part > most) {
           most = part;
-          warning = expression.where + text(": between t = %.6g and %.6g ", k * i, k * (i + 1)) +
+          warning = expression.where + formatted(": between t = %.6g and %.6g ", k * i, k * (i + 1)) +
                     scene.units.time +
-                    text(", a step, it goes %.0f %% of its range beyond both ends", 100 * part, 0);
+                    formatted(", a step, it goes %.0f %% of its range beyond both ends", 100 * part);
         }
       }
     }

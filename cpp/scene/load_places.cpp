@@ -7,6 +7,7 @@
 
 #include "base/dense_templates.h"
 #include "mesh/boundary_line.h"
+#include "mesh/box_of.h"
 
 namespace mortier {
 namespace {
@@ -26,8 +27,7 @@ struct Cell {
     return sum / static_cast<double>(corners.size());
   }
   [[nodiscard]] Box box() const {
-    Eigen::AlignedBox3d box;
-    for (const SpacePoint& corner : corners) box.extend(corner);
+    const auto box = boxOf(corners);
     const SpacePoint low = box.min();
     const SpacePoint high = box.max();
     return {{low.x(), high.x()}, {low.y(), high.y()}, time, {low.z(), high.z()}};
@@ -217,9 +217,8 @@ LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* labe
       cells.push_back({std::move(corners), false, {0, end}});
     }
   } else if (!parts.vertices.empty()) {
-    Eigen::AlignedBox3d box;
+    const auto box = boxOf(parts.vertices);
     const size_t stride = 1 + 2 * parts.elements.size() / mostCandidates;
-    for (const SpacePoint& p : parts.vertices) box.extend(p);
     for (size_t e = 0; e < parts.elements.size(); e += stride) {
       const std::vector<int>& element = parts.elements[e];
       SpacePoint sum = SpacePoint::Zero();

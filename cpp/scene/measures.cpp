@@ -29,11 +29,12 @@ class Converter {
       const bool isTable =
           !keysOf(at).empty() && (at != "body.temperature" || member.find("file") != nullptr);
       if (key != nullptr && !isTable && key->unit == "K") {
-        convertHeat(member, member.key, key->unit, kelvins);
+        convert(member, member.key, units_, byFactor("K", kelvins));
       } else if (key != nullptr && !isTable && key->unit == "1/K") {
-        convertHeat(member, member.key, key->unit, perKelvin);
+        convert(member, member.key, units_, byFactor("1/K", perKelvin));
       } else if (key != nullptr && !isTable && key->dimension) {
-        convert(member, member.key, *key->dimension, at == "accuracy.max_seconds" ? ofTheClock_ : units_);
+        const Units& units = at == "accuracy.max_seconds" ? ofTheClock_ : units_;
+        convert(member, member.key, units, byDimension(*key->dimension, units));
       } else {
         convertTable(member, at);
         for (Node& element : member.elements) convertTable(element, at);
@@ -54,41 +55,39 @@ class Converter {
              "a number, or units = \"m, N, Pa\" at the top of the scene: without them no number has a unit");
     return read;
   }
-  static void set(Node& node, double value) {
-    node.kind = Node::Kind::number;
-    node.value = value;
-    node.text.clear();
-  }
+  /// What number a measure is, whose node and key a message names.
+  using ToNumber = std::function<double(const NumberAndUnit& read, const Node& node, const std::string& key)>;
 
+  static ToNumber byDimension(const Dimension& dimension, const Units& units) {
+    return [dimension, &units](const NumberAndUnit& read, const Node& node, const std::string& key) {
+      const auto unit = unitOf(read.unit);
+      if (!unit || !(unit->dimension == dimension))
+        reject(node, key,
+               "a number in " + units.nameOf(dimension) + " or what can be converted to it" +
+                   (unit ? "" : "; " + read.unit + " is no unit that is known"));
+      return units.in({read.number * unit->factor, unit->decades, unit->dimension});
+    };
+  }
+  /// Of what `units` say nothing of; factorOf(unit) in K or 1/K.
+  template <class FactorOf>
+  static ToNumber byFactor(const std::string& name, FactorOf factorOf) {
+    return [name, factorOf](const NumberAndUnit& read, const Node& node, const std::string& key) {
+      const auto factor = factorOf(read.unit);
+      if (!factor) reject(node, key, "a number in " + name + " or of degC or degF in its place");
+      return read.number * *factor;
+    };
+  }
   /// A value, a list of them, or a table in time.
-  static void convert(Node& node, const std::string& key, const Dimension& dimension, const Units& units) {
-    for (Node& element : node.elements) convert(element, key, dimension, units);
+  static void convert(Node& node, const std::string& key, const Units& units, const ToNumber& toNumber) {
+    for (Node& element : node.elements) convert(element, key, units, toNumber);
     for (Node& member : node.members)
-      convert(member, member.key, member.key == "time" ? dimensions::time : dimension, units);
+      convert(member, member.key, units,
+              member.key == "time" ? byDimension(dimensions::time, units) : toNumber);
     const auto read = measureIn(node, key, units);
     if (!read) return;
-    const auto unit = unitOf(read->unit);
-    if (!unit || !(unit->dimension == dimension))
-      reject(node, key,
-             "a number in " + units.nameOf(dimension) + " or what can be converted to it" +
-                 (unit ? "" : "; " + read->unit + " is no unit that is known"));
-    set(node, units.in({read->number * unit->factor, unit->decades, unit->dimension}));
-  }
-  /// The same of what `units` say nothing of; factorOf(unit) in K or 1/K.
-  template <class FactorOf>
-  void convertHeat(Node& node, const std::string& key, const std::string& name, FactorOf factorOf) const {
-    for (Node& element : node.elements) convertHeat(element, key, name, factorOf);
-    for (Node& member : node.members) {
-      if (member.key == "time")
-        convert(member, member.key, dimensions::time, units_);
-      else
-        convertHeat(member, member.key, name, factorOf);
-    }
-    const auto read = measureIn(node, key, units_);
-    if (!read) return;
-    const auto factor = factorOf(read->unit);
-    if (!factor) reject(node, key, "a number in " + name + " or of degC or degF in its place");
-    set(node, read->number * *factor);
+    node.value = toNumber(*read, node, key);
+    node.kind = Node::Kind::number;
+    node.text.clear();
   }
 
   const Units& units_;

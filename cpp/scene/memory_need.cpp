@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -135,10 +135,8 @@ double availableMemory() {
 
 std::string aboutMemory(double bytes) {
   const double mebibytes = bytes / (1024 * 1024);
-  char text[64];
-  std::snprintf(text, sizeof text, mebibytes < 1024 ? "about %.0f MiB" : "about %.3g GiB",
-                mebibytes < 1024 ? mebibytes : mebibytes / 1024);
-  return text;
+  return mebibytes < 1024 ? formatted("about %.0f MiB", mebibytes)
+                          : formatted("about %.3g GiB", mebibytes / 1024);
 }
 
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,

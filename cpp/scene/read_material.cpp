@@ -76,14 +76,11 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
 }
 
 void requireRates(const BodyDescription& body, const SceneDescription& scene) {
-  std::vector<const MaterialDescription*> materials{&body.material};
-  for (const RegionDescription& region : body.regions)
-    if (region.material) materials.push_back(&*region.material);
   const std::string asked = scene.time.scheme == Scheme::crankNicolson ? "scheme = \"crank-nicolson\""
                             : scene.time.controlled()                  ? "time.tolerance"
                             : scene.accuracy.asked() > 0               ? "accuracy"
                                                                        : "";
-  for (const MaterialDescription* material : materials)
+  for (const MaterialDescription* material : materialsOf(body))
     if (const auto* law = material->as<Overstress>(); law != nullptr && !law->viscous() && !asked.empty())
       throw InputError(body.where + ": body " + body.name +
                        ": viscosity = 0, expected viscosity > 0 beside " + asked +

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mesh/box_of.h"
 #include "scene/readers.h"
 
 namespace mortier {
@@ -85,13 +86,6 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   }
 }
 
-/// Where the outline says nothing else: in the middle of its extents.
-Point middleOf(const std::vector<Point>& points) {
-  Eigen::AlignedBox2d box;
-  for (const Point& x : points) box.extend(x);
-  return box.center();
-}
-
 void readMotion(const TableReader& table, bool axisymmetric, BodyDescription& tool) {
   using Kind = ConditionDescription::Kind;
   constexpr const char* displacements[] = {"ux", "uy", "rotation"};
@@ -135,7 +129,8 @@ BodyDescription readTool(const Node& node, const SceneDescription& scene, size_t
     static_cast<void>(table.require("shape", "\"line\", \"disc\", \"rectangle\", \"polygon\" or \"spline\""));
     Outline outline = readOutline(table, axisymmetric);
     outline.name = "outline of " + tool.name;
-    at = table.has("centre") ? table.point("centre") : middleOf(outline.points);
+    // Where the outline says nothing else: in the middle of its extents.
+    at = table.has("centre") ? table.point("centre") : Point(boxOf(outline.points).center());
     tool.meshWhere = table.find("shape")->where;
     tool.mesh.path = table.string("shape");
     tool.mesh.shape = MeshShape{std::move(outline)};

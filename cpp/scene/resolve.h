@@ -48,6 +48,9 @@ bool nearlyIncompressible(const SceneDescription& scene, const MaterialDescripti
 /// quarters of cells with both diagonals. \param mesh  null in space
 bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh* mesh);
 
+/// The part of the triangles that are quarters of cells with both diagonals: they have a vertex with four
+/// triangles.
+double crossedPart(const TriangleMesh& mesh);
 /// Averages the volumetric strain of bodies with such a material, and says why in `volumeChoice`; beside
 /// accuracy.bound none. A second call changes nothing. Bodies without mesh (nullptr) stay as they are.
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);

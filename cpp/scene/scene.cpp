@@ -27,17 +27,14 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
 
 /// What the bound of the error, refined meshes and the note's algorithm cannot have.
 void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) {
-  const auto require = [&](const MaterialDescription& material) {
-    if (!material.anisotropy) return;
+  for (const MaterialDescription* material : materialsOf(body)) {
+    if (!material->anisotropy) continue;
     if (scene.accuracy.bound)
-      throw InputError(material.anisotropy->where + ", expected \"isotropic\" beside accuracy.bound");
+      throw InputError(material->anisotropy->where + ", expected \"isotropic\" beside accuracy.bound");
     if (scene.solver.method != Method::newton)
-      throw InputError(material.anisotropy->where +
+      throw InputError(material->anisotropy->where +
                        ", expected \"isotropic\" beside solver.method = \"penalty-duality\"");
-  };
-  require(body.material);
-  for (const RegionDescription& region : body.regions)
-    if (region.material) require(*region.material);
+  }
   if (scene.accuracy.bound && body.volume == Volume::averaged)
     throw InputError(
         body.volumeWhere +
@@ -96,10 +93,7 @@ void requireAim(const SceneDescription& scene) {
   if (scene.degree == 2)
     refuse("degree = 1 beside it: errors of quantities are known of linear displacements");
   for (const BodyDescription& body : scene.bodies) {
-    bool flows = body.material.flows();
-    for (const RegionDescription& region : body.regions)
-      flows = flows || (region.material && region.material->flows());
-    if (flows)
+    if (mayFlow(body))
       refuse("elastic bodies beside it: body " + body.name + " flows, and no error of a quantity is known");
   }
 }
@@ -250,6 +244,26 @@ bool BodyDescription::turns() const {
            const bool held = c.kind == ConditionDescription::Kind::displacement && c.value.constant;
            return c.component == 2 && !(held && c.value.value(0, 0, 0) == 0);
          });
+}
+
+std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body) {
+  std::vector<const MaterialDescription*> materials{&body.material};
+  for (const RegionDescription& region : body.regions)
+    if (region.material) materials.push_back(&*region.material);
+  return materials;
+}
+
+bool mayFlow(const BodyDescription& body) {
+  const auto materials = materialsOf(body);
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const MaterialDescription* each) { return each->flows(); });
+}
+
+bool isFollowed(const SceneDescription& scene, const std::string& body) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
+    return contact.sliding == SlidingKind::finite &&
+           (contact.nonmortar.body == body || contact.mortar.body == body);
+  });
 }
 
 std::string nameOfPlace(const ConditionDescription& condition) {

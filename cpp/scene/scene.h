@@ -126,6 +126,11 @@ struct BodyDescription {
   [[nodiscard]] bool isTool() const { return reference.has_value(); }
 };
 
+/// The material of a body and those of its regions.
+std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body);
+/// Whether one of them can flow.
+bool mayFlow(const BodyDescription& body);
+
 struct SideDescription {
   std::string body;
   int label = 0;
@@ -227,5 +232,7 @@ bool isName(const std::string& text);
 
 /// The index of the body called `name`; -1 where there is none.
 int bodyIndex(const SceneDescription& scene, const std::string& name);
+/// Whether contact follows a body, which may move far then.
+bool isFollowed(const SceneDescription& scene, const std::string& body);
 
 }  // namespace mortier

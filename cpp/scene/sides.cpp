@@ -197,10 +197,7 @@ std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<Condition
   return held;
 }
 
-namespace {
-
-/// Whether most triangles are quarters of cells with both diagonals: they have a vertex with four triangles.
-bool bothDiagonals(const TriangleMesh& mesh) {
+double crossedPart(const TriangleMesh& mesh) {
   std::vector<int> around(mesh.vertices.size(), 0);
   for (const auto& triangle : mesh.triangles)
     for (const int v : triangle) ++around[v];
@@ -208,8 +205,10 @@ bool bothDiagonals(const TriangleMesh& mesh) {
       std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
         return std::any_of(triangle.begin(), triangle.end(), [&](int v) { return around[v] == 4; });
       });
-  return 2 * quarters > static_cast<std::ptrdiff_t>(mesh.triangles.size());
+  return static_cast<double>(quarters) / static_cast<double>(mesh.triangles.size());
 }
+
+namespace {
 
 /// Why the volumetric strain of a body is to be averaged; empty where it need not be.
 std::string volumeNeed(const SceneDescription& scene, const BodyDescription& body, const TriangleMesh& mesh) {
@@ -236,7 +235,7 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
   if (scene.degree != 1 || !material.flows()) return false;
   if (scene.inSpace()) return true;
   return scene.plane != Plane::stress && material.as<OwnLaw>() == nullptr &&
-         !(scene.plane == Plane::strain && bothDiagonals(*mesh));
+         !(scene.plane == Plane::strain && crossedPart(*mesh) > 0.5);
 }
 
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
