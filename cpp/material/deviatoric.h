@@ -2,8 +2,8 @@
 // the deviator, of three or five directions on which elasticity is the number E/(1+nu); on the pressure
 // h = tr sigma/sqrt3 it is E/(1-2 nu). In the plane stresses are (p, q, r, s33) and
 //   k = (p - sqrt2 s33)/sqrt3,  q,  r;   h = (sqrt2 p + s33)/sqrt3
-// is an orthonormal basis as well; in space stresses are (k, q, r, sqrt2 s13, sqrt2 s23, h): that the trace is
-// a component of its own keeps its digits where a body flows at constant volume. For Perzyna's law all three
+// is an orthonormal basis as well; in space stresses are (k, q, r, sqrt2 s13, sqrt2 s23, h): the trace as a
+// component of its own keeps its digits where a body flows at constant volume. For Perzyna's law all three
 // projections are one: B is the von Mises cylinder, and P_B shortens the deviator to sigma_Y sqrt(2/3),
 //   eps' = E^-1 sigma' + (1 - sigma_Y/vM)_+ dev sigma / (2 lambda).
 #pragma once
