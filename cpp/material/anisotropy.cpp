@@ -5,9 +5,9 @@
 
 #include "base/dense_templates.h"
 #include "base/error.h"
-#include "base/worst.h"
 #include "material/interior_path.h"
 #include "material/parts.h"
+#include "material/point_material.h"
 
 namespace mortier {
 namespace {
@@ -56,8 +56,71 @@ Eigen::Index componentsIn(Plane plane) {
 // corrected by
 //   H^-1 = H0^-1 - B M^-1 B',   B = H0^-1 F,   M = 1 + F'B,
 // all of positive matrices, whatever flows.
+/// \param F  column major  \param D, change  of the isotropic law, corrected
+template <size_t n>
+void soften(const std::array<Lanes, n * n>& F, std::array<Lanes, n * n>& D, std::array<Lanes, n>& change) {
+  std::array<Lanes, n * n> B;
+  std::array<Lanes, n*(n + 1)> X;  // F'D and F' change, then M^-1 of it
+  std::array<Lanes, n * n> M;
+  for (size_t j = 0; j < n; ++j)
+    for (size_t i = 0; i < n; ++i) {
+      B[n * j + i] = 0;
+      X[n * j + i] = 0;
+      for (size_t k = 0; k < n; ++k) {
+        B[n * j + i] += D[n * k + i] * F[n * j + k];
+        X[n * j + i] += F[n * i + k] * D[n * j + k];
+      }
+    }
+  for (size_t i = 0; i < n; ++i) {
+    X[n * n + i] = 0;
+    for (size_t k = 0; k < n; ++k) X[n * n + i] += F[n * i + k] * change[k];
+  }
+  for (size_t j = 0; j < n; ++j)
+    for (size_t i = 0; i < n; ++i) {
+      M[n * j + i] = i == j ? 1 : 0;
+      for (size_t k = 0; k < n; ++k) M[n * j + i] += F[n * i + k] * B[n * j + k];
+    }
+  for (size_t k = 0; k < n; ++k)  // Gauss; M is positive
+    for (size_t i = k + 1; i < n; ++i) {
+      const Lanes factor = M[n * k + i] / M[n * k + k];
+      for (size_t j = k + 1; j < n; ++j) M[n * j + i] -= factor * M[n * j + k];
+      for (size_t j = 0; j <= n; ++j) X[n * j + i] -= factor * X[n * j + k];
+    }
+  for (size_t j = 0; j <= n; ++j)
+    for (size_t k = n; k-- > 0;) {
+      for (size_t i = k + 1; i < n; ++i) X[n * j + k] -= M[n * i + k] * X[n * j + i];
+      X[n * j + k] /= M[n * k + k];
+    }
+  for (size_t j = 0; j <= n; ++j)
+    for (size_t i = 0; i < n; ++i) {
+      Lanes& entry = j < n ? D[n * j + i] : change[i];
+      for (size_t k = 0; k < n; ++k) entry -= B[n * k + i] * X[n * j + k];
+    }
+}
+
+/// Symmetric H^-1 of a batch, column major.
+template <size_t n>
+std::array<Lanes, n * n> loadModuli(const Batch& batch, const Linearisation& law) {
+  constexpr size_t block = n < 6 ? 3 : 6;
+  const auto lower = batch.load<block*(block + 1) / 2>(law.moduli.data());
+  std::array<Lanes, n * n> D;
+  size_t next = 0;
+  for (size_t j = 0; j < block; ++j)
+    for (size_t i = j; i < block; ++i) D[n * j + i] = D[n * i + j] = lower[next++];
+  if constexpr (n > block) {
+    const auto row = batch.load<n>(law.beyond.data());
+    for (size_t k = 0; k < n; ++k) D[n * k + block] = D[n * block + k] = row[k];
+  }
+  return D;
+}
+
+/// \tparam n  components of the stress
+template <size_t n>
 class AnisotropicMaterial final : public Material, public Pointwise {
+  using Square = Eigen::Matrix<double, n, n>;
+
  public:
+  /// \pre the moduli of the isotropic law are symmetric
   AnisotropicMaterial(const Anisotropy& anisotropy, std::shared_ptr<const Material> isotropic,
                       const std::vector<double>& angles)
       : isotropic_(std::move(isotropic)), name_(anisotropy.name) {
@@ -67,8 +130,10 @@ class AnisotropicMaterial final : public Material, public Pointwise {
     rootInverse_ = eigen.eigenvectors() * inverse.cwiseSqrt().asDiagonal();
     F_ =
         eigen.eigenvectors() * (inverse.array() - 1 / moduli_.maxCoeff()).max(0).sqrt().matrix().asDiagonal();
-    for (const double angle : angles)
-      axes_.push_back({std::cos(2 * angle), std::sin(2 * angle), std::cos(angle), std::sin(angle)});
+    axes_.resize(4, static_cast<Eigen::Index>(angles.size()));
+    for (size_t i = 0; i < angles.size(); ++i)
+      axes_.col(static_cast<Eigen::Index>(i)) << std::cos(2 * angles[i]), std::sin(2 * angles[i]),
+          std::cos(angles[i]), std::sin(angles[i]);
   }
 
   /// The moduli in place of Young's modulus and Poisson's ratio.
@@ -81,18 +146,16 @@ class AnisotropicMaterial final : public Material, public Pointwise {
     }
     return laws;
   }
-  [[nodiscard]] int components() const override { return isotropic_->components(); }
+  [[nodiscard]] int components() const override { return n; }
   [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int point) const override {
-    if (components() != 4) return 0;
-    const ComponentMatrix root = atPoint(rootInverse_, point);
-    const ComponentMatrix inverse = root * root.transpose();
-    return -inverse.block<1, 3>(3, 0).dot(stress) / inverse(3, 3);
+    if constexpr (n != 4) return 0;
+    const Square root = atPoint(rootInverse_, point);
+    const Square inverse = root * root.transpose();
+    return -inverse.template block<1, 3>(n - 1, 0).dot(stress) / inverse(n - 1, n - 1);
   }
   [[nodiscard]] std::shared_ptr<const Material> restricted(const std::vector<int>& points) const override {
     auto own = std::make_shared<AnisotropicMaterial>(*this);
-    if (axes_.empty()) return own;
-    own->axes_.clear();
-    for (const int point : points) own->axes_.push_back(axes_[point]);
+    if (axes_.size() > 0) own->axes_ = axes_(Eigen::all, points).eval();
     return own;
   }
   [[nodiscard]] bool symmetricTangent() const override { return isotropic_->symmetricTangent(); }
@@ -123,7 +186,7 @@ class AnisotropicMaterial final : public Material, public Pointwise {
   }
   void elasticStrain(const Matrix& stress, Matrix& strain, int begin, int end) const override {
     for (int i = begin; i < end; ++i) {
-      const ComponentMatrix root = atPoint(rootInverse_, i);
+      const Square root = atPoint(rootInverse_, i);
       strain.col(i) = root * (root.transpose() * stress.col(i));
     }
   }
@@ -133,18 +196,32 @@ class AnisotropicMaterial final : public Material, public Pointwise {
   }
 
  private:
-  /// Columns in the axes of a point: q and r turned, and in space the shears 13 and 23.
-  [[nodiscard]] ComponentMatrix atPoint(const ComponentMatrix& columns, int point) const {
-    ComponentMatrix turned = columns;
-    if (axes_.empty()) return turned;
-    const auto& [c2, s2, c, s] = axes_[point];
-    const auto turnPair = [&](int k, double cosine, double sine) {
-      turned.row(k) = cosine * columns.row(k) - sine * columns.row(k + 1);
-      turned.row(k + 1) = cosine * columns.row(k + 1) + sine * columns.row(k);
+  /// Columns in axes that are turned: q and r, and in space the shears 13 and 23.
+  template <class Scalar>
+  static std::array<Scalar, n * n> turned(std::array<Scalar, n * n> columns,
+                                          const std::array<Scalar, 4>& axes) {
+    const auto turnPair = [&](Scalar& first, Scalar& second, const Scalar& cosine, const Scalar& sine) {
+      const Scalar x = first;
+      first = cosine * x - sine * second;
+      second = cosine * second + sine * x;
     };
-    turnPair(1, c2, s2);
-    if (columns.rows() == 6) turnPair(3, c, s);
-    return turned;
+    for (size_t j = 0; j < n; ++j) {
+      turnPair(columns[n * j + 1], columns[n * j + 2], axes[0], axes[1]);
+      if constexpr (n == 6) turnPair(columns[n * j + 3], columns[n * j + 4], axes[2], axes[3]);
+    }
+    return columns;
+  }
+  [[nodiscard]] Square atPoint(const Square& columns, int point) const {
+    if (axes_.size() == 0) return columns;
+    std::array<double, n * n> all;
+    std::copy(columns.data(), columns.data() + all.size(), all.begin());
+    all = turned<double>(all, {axes_(0, point), axes_(1, point), axes_(2, point), axes_(3, point)});
+    return Eigen::Map<const Square>(all.data());
+  }
+  [[nodiscard]] std::array<Lanes, n * n> factorAt(const Batch& batch) const {
+    std::array<Lanes, n * n> F;
+    for (size_t k = 0; k < F.size(); ++k) F[k] = F_.data()[k];
+    return axes_.size() == 0 ? F : turned<Lanes>(F, batch.load<4>(axes_.data()));
   }
 
   /// \param part  of the change of stress that the predictor takes
@@ -153,35 +230,50 @@ class AnisotropicMaterial final : public Material, public Pointwise {
     const int points = end - begin;
     const Matrix s = stress.middleCols(begin, points);
     const Matrix s0 = step.stress0.middleCols(begin, points);
-    Matrix strain = step.strain.middleCols(begin, points);
-    for (int i = 0; i < points; ++i) {
-      const ComponentMatrix F = atPoint(F_, begin + i);
-      strain.col(i) -= F * (F.transpose() * (s.col(i) - s0.col(i)));
+    Matrix strain(n, points);
+    for (int i = begin; i < end; i += laneCount) {
+      const Batch batch(i, end);
+      const std::array<Lanes, n* n> F = factorAt(batch);
+      const auto from = batch.load<n>(step.stress0.data());
+      auto moved = batch.load<n>(stress.data());
+      auto rest = batch.load<n>(step.strain.data());
+      for (size_t k = 0; k < n; ++k) moved[k] -= from[k];
+      for (size_t j = 0; j < n; ++j) {
+        Lanes along = 0;
+        for (size_t k = 0; k < n; ++k) along += F[n * j + k] * moved[k];
+        for (size_t k = 0; k < n; ++k) rest[k] -= F[n * j + k] * along;
+      }
+      Batch(i - begin, points).store(rest, strain.data());
     }
     Linearisation law = isotropic_->room(points);
     const LawReport report =
         isotropic_->linearise({step.weight, s0, strain, step.anticipate}, s, law, 0, points);
-    Worst worst;
-    for (int i = 0; i < points; ++i) {
-      const ComponentMatrix F = atPoint(F_, begin + i);
-      const ComponentMatrix moduli = moduliAt(law, i);
-      const ComponentMatrix B = moduli * F;
-      const Eigen::LLT<ComponentMatrix> M(ComponentMatrix::Identity(F.rows(), F.rows()) + F.transpose() * B);
-      PointVector change = law.predictor.col(i) - s.col(i);
-      change -= B * M.solve(PointVector(F.transpose() * change));
-      worst.add(part * change.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
-      result.predictor.col(begin + i) = s.col(i) + part * change;
-      setModuli(moduli - B * M.solve(ComponentMatrix(B.transpose())), begin + i, result);
+    Largest largest;
+    for (int i = begin; i < end; i += laneCount) {
+      const Batch batch(i, end);
+      const Batch own(i - begin, points);
+      std::array<Lanes, n* n> moduli = loadModuli<n>(own, law);
+      auto predictor = batch.load<n>(stress.data());
+      auto change = own.load<n>(law.predictor.data());
+      for (size_t k = 0; k < n; ++k) change[k] -= predictor[k];
+      soften<n>(factorAt(batch), moduli, change);
+      for (size_t k = 0; k < n; ++k) {
+        change[k] *= part;
+        predictor[k] += change[k];
+      }
+      largest.add(change);
+      batch.store(predictor, result.predictor.data());
+      storeModuli<n>(batch, moduli, result);
     }
-    return {worst.value(), report.elastic};
+    return {largest.value(), report.elastic};
   }
 
   std::shared_ptr<const Material> isotropic_;
   std::string name_;
-  Vector moduli_;                ///< eigenvalues of E [Pa]
-  ComponentMatrix rootInverse_;  ///< its product with the transpose is E^-1 [1/Pa]
-  ComponentMatrix F_;
-  std::vector<std::array<double, 4>> axes_;  ///< cosine and sine of twice the angle of a point, and of it
+  Vector moduli_;       ///< eigenvalues of E [Pa]
+  Square rootInverse_;  ///< its product with the transpose is E^-1 [1/Pa]
+  Square F_;
+  Matrix axes_;  ///< 4 x points: cosine and sine of twice the angle, and of it; empty where all have the same
 };
 
 }  // namespace
@@ -256,7 +348,14 @@ Elasticity stiffestOf(const Anisotropy& anisotropy) {
 std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy,
                                                     std::shared_ptr<const Material> isotropic,
                                                     const std::vector<double>& angles) {
-  return std::make_shared<AnisotropicMaterial>(anisotropy, std::move(isotropic), angles);
+  switch (isotropic->components()) {
+    case 3:
+      return std::make_shared<AnisotropicMaterial<3>>(anisotropy, std::move(isotropic), angles);
+    case 4:
+      return std::make_shared<AnisotropicMaterial<4>>(anisotropy, std::move(isotropic), angles);
+    default:
+      return std::make_shared<AnisotropicMaterial<6>>(anisotropy, std::move(isotropic), angles);
+  }
 }
 
 }  // namespace mortier

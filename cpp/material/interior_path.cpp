@@ -181,11 +181,19 @@ class ConePath final : public InteriorPath {
           Eigen::Map<const Eigen::Vector4d>(joined(Split<double>{{x[0], x[1], x[2]}, pressure}).data());
   }
   void putModuli(const Eigen::Matrix3d& D, int column, Linearisation& result) const {
-    if (!bulk_) return setModuli(D, column, result);
-    std::array<double, 9> own;
-    Eigen::Map<Eigen::Matrix3d>(own.data()) = D;
-    const std::array<double, 16> all = joinedModuli(own, *bulk_);
-    setModuli(Eigen::Map<const Eigen::Matrix4d>(all.data()), column, result);
+    Eigen::Matrix3d H = D;
+    if (bulk_) {
+      std::array<double, 9> own;
+      Eigen::Map<Eigen::Matrix3d>(own.data()) = D;
+      const std::array<double, 16> all = joinedModuli(own, *bulk_);
+      const Eigen::Map<const Eigen::Matrix4d> whole(all.data());
+      H = whole.topLeftCorner<3, 3>();
+      result.beyond.col(column).head<4>() = whole.row(3).transpose();
+    }
+    if (result.moduli.rows() == 6)
+      result.moduli.col(column) << H(0, 0), H(1, 0), H(2, 0), H(1, 1), H(2, 1), H(2, 2);
+    else
+      result.moduli.col(column) = H.reshaped();
   }
 
   std::vector<int> columns_;  ///< of the points

@@ -117,12 +117,6 @@ inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vec
   return stress;
 }
 
-using ComponentMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
-
-/// H^-1 of a point on all components, read and written.
-ComponentMatrix moduliAt(const Linearisation& law, int point);
-void setModuli(const ComponentMatrix& moduli, int point, Linearisation& law);
-
 /// What a law is, for log, summary and plan.
 struct LawDescription {
   struct Parameter {

@@ -53,6 +53,41 @@ struct PointAnswer {
   bool flows = false;               ///< whether the moduli of any lane may be other than those of elasticity
 };
 
+/// Keeps H^-1 of a batch, column major, as Linearisation has it.
+template <size_t n>
+void storeModuli(const Batch& batch, const std::array<Lanes, n * n>& H, Linearisation& result) {
+  if constexpr (n >= 6) {
+    std::array<Lanes, 36> all;
+    std::array<Lanes, 21> lower;
+    size_t next = 0;
+    for (size_t j = 0; j < 6; ++j)
+      for (size_t i = 0; i < 6; ++i) {
+        all[6 * j + i] = H[n * j + i];
+        if (i >= j) lower[next++] = H[n * j + i];
+      }
+    if constexpr (n == 7)
+      batch.store(std::array<Lanes, 7>{H[6], H[13], H[20], H[27], H[34], H[41], H[48]}, result.beyond.data());
+    if (result.moduli.rows() == 36) return batch.store(all, result.moduli.data());
+    return batch.store(lower, result.moduli.data());
+  }
+  if (result.moduli.rows() == 6)
+    batch.store(std::array<Lanes, 6>{H[0], H[1], H[2], H[n + 1], H[n + 2], H[2 * n + 2]},
+                result.moduli.data());
+  else
+    batch.store(std::array<Lanes, 9>{H[0], H[1], H[2], H[n], H[n + 1], H[n + 2], H[2 * n], H[2 * n + 1],
+                                     H[2 * n + 2]},
+                result.moduli.data());
+  if constexpr (n == 4) {
+    if (result.beyond.rows() == 4)
+      batch.store(std::array<Lanes, 4>{H[3], H[7], H[11], H[15]}, result.beyond.data());
+    else
+      batch.store(std::array<Lanes, 7>{H[3], H[7], H[11], H[15], H[12], H[13], H[14]}, result.beyond.data());
+  }
+  if constexpr (n == 5)
+    batch.store(std::array<Lanes, 9>{H[3], H[8], H[13], H[18], H[4], H[9], H[14], H[24], H[19]},
+                result.beyond.data());
+}
+
 template <class Law>
 class PointMaterial final : public Material, public BackStress {
  public:
@@ -105,7 +140,7 @@ class PointMaterial final : public Material, public BackStress {
       change.add(answer.change);
       flows = flows || answer.flows;
       batch.store(answer.predictor, result.predictor.data());
-      store(batch, answer.moduli, result);
+      storeModuli<n>(batch, answer.moduli, result);
     }
     return {change.value(), flows ? 0 : end - begin};
   }
@@ -120,7 +155,7 @@ class PointMaterial final : public Material, public BackStress {
       change.add(answer.change);
       for (size_t k = 0; k < n; ++k) point.stress[k] += relaxation * answer.change[k];
       batch.store(point.stress, result.predictor.data());
-      store(batch, answer.moduli, result);
+      storeModuli<n>(batch, answer.moduli, result);
     }
     return {change.value(), Law::linear ? end - begin : 0};
   }
@@ -181,42 +216,6 @@ class PointMaterial final : public Material, public BackStress {
     point.weight = step.weight;
     point.anticipate = step.anticipate;
     return point;
-  }
-
-  /// What Linearisation keeps of them.
-  static void store(const Batch& batch, const std::array<Lanes, n * n>& H, Linearisation& result) {
-    if constexpr (n >= 6) {
-      std::array<Lanes, 36> all;
-      std::array<Lanes, 21> lower;
-      size_t next = 0;
-      for (size_t j = 0; j < 6; ++j)
-        for (size_t i = 0; i < 6; ++i) {
-          all[6 * j + i] = H[n * j + i];
-          if (i >= j) lower[next++] = H[n * j + i];
-        }
-      if constexpr (n == 7)
-        batch.store(std::array<Lanes, 7>{H[6], H[13], H[20], H[27], H[34], H[41], H[48]},
-                    result.beyond.data());
-      if (result.moduli.rows() == 36) return batch.store(all, result.moduli.data());
-      return batch.store(lower, result.moduli.data());
-    }
-    if (result.moduli.rows() == 6)
-      batch.store(std::array<Lanes, 6>{H[0], H[1], H[2], H[n + 1], H[n + 2], H[2 * n + 2]},
-                  result.moduli.data());
-    else
-      batch.store(std::array<Lanes, 9>{H[0], H[1], H[2], H[n], H[n + 1], H[n + 2], H[2 * n], H[2 * n + 1],
-                                       H[2 * n + 2]},
-                  result.moduli.data());
-    if constexpr (n == 4) {
-      if (result.beyond.rows() == 4)
-        batch.store(std::array<Lanes, 4>{H[3], H[7], H[11], H[15]}, result.beyond.data());
-      else
-        batch.store(std::array<Lanes, 7>{H[3], H[7], H[11], H[15], H[12], H[13], H[14]},
-                    result.beyond.data());
-    }
-    if constexpr (n == 5)
-      batch.store(std::array<Lanes, 9>{H[3], H[8], H[13], H[18], H[4], H[9], H[14], H[24], H[19]},
-                  result.beyond.data());
   }
 
   Law law_;
