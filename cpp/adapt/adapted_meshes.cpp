@@ -98,9 +98,7 @@ AdaptedMeshes::AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree
     : degree_(degree), dimension_(2) {
   for (const TriangleMesh& mesh : meshes) {
     KnownCurves curves = curvesBehind(mesh);
-    InPlane body{mesh, std::move(curves.edges)};
-    chooseBases(body.mesh);
-    bodies_.emplace_back(std::move(body));
+    bodies_.emplace_back(InPlane{mesh, std::move(curves.edges)});
     polygons_.push_back(std::move(curves.polygons));
   }
 }
@@ -214,6 +212,13 @@ void AdaptedMeshes::learnRates(Body& body, const Vector& error, double rounding)
       body.rate[v] = (dimension_ * power - (dimension_ - 2)) / 2;
     }
   body.rate.resize(vertices, unknownRate);
+  constexpr double near = 0.6;  // a singular stress may be largest a vertex away
+  body.isPeak.assign(vertices, 1);
+  if (dimension_ == 2)
+    for (const auto& element : elementsOf(body.mesh))
+      for (const int v : element)
+        for (const int other : element)
+          if (sum[v] * size[other] < near * sum[other] * size[v]) body.isPeak[v] = 0;
   body.error = std::move(sum);
   body.size = std::move(size);
 }
@@ -262,9 +267,9 @@ void AdaptedMeshes::cutToSize(Body& body, const Vector& reduction, std::vector<c
 
 template <class Body>
 void AdaptedMeshes::cutAtSingularities(Body& body, double allowed) {
-  constexpr int most = 10;
+  const int most = dimension_ == 2 ? 6 : 10;
   for (size_t v = 0; v < body.rate.size(); ++v) {
-    if (!(body.rate[v] < bounded)) continue;
+    if (!(body.rate[v] < bounded) || body.isPeak[v] == 0) continue;
     const double rate = std::max(body.rate[v], slowest);
     const double power = (2 * rate + (dimension_ - 2)) / dimension_;  // of the size
     const auto atVertex = [&](std::vector<char>& marked) {

@@ -9,7 +9,9 @@
 //   - the elements that make half of the error (Doerfler 1996) are cut in any case;
 //   - where the error of the elements of a vertex has fallen from one round to the next like h^(2s + d - 2),
 //     h^d their size, with s < 1.1, the stress is unbounded there, at a point of the plane or along an edge
-//     in space: they are cut repeatedly, until they are to be a hundredth of the aim.
+//     in space: they are cut repeatedly, until they are to be a hundredth of the aim. In the plane that is
+//     done six times a round at most, and only where the density of the error is at least 0.6 of that at the
+//     vertices next to it: else the rate may show that data or contact were not resolved before.
 #pragma once
 
 #include <string>
@@ -66,6 +68,7 @@ class AdaptedMeshes {
     // By vertices, of the elements around them:
     std::vector<double> error = {};  ///< eta^2 in the last round [J/m]
     std::vector<double> size = {};   ///< [m^2], [m^3]
+    std::vector<char> isPeak = {};   ///< of the density of the error, nearly; in space every one
     std::vector<double> rate = {};   ///< s; infinite where it is not known
   };
   using InPlane = Adapted<TriangleMesh, CurvedEdges>;

@@ -59,8 +59,8 @@ void apply(TriangleMesh& mesh, const CornerCut& cut) {
       const std::array<int, 3> old = mesh.triangles[t];
       if (old[k] != a || old[(k + 1) % 3] != b) continue;
       const int c = old[(k + 2) % 3];
-      mesh.triangles[t] = onItsLongestSide(mesh, {a, m, c});
-      mesh.triangles.push_back(onItsLongestSide(mesh, {m, b, c}));
+      mesh.triangles[t] = {a, m, c};
+      mesh.triangles.push_back({m, b, c});
       mesh.regions.push_back(mesh.regions[t]);
       return;
     }

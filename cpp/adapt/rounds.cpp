@@ -13,11 +13,11 @@ namespace mortier {
 namespace {
 
 /// An estimate may be this part of the error, so that it has to be below this part of what is asked.
-constexpr double leastShare = 0.9;
+constexpr double leastShare = 0.87;
 constexpr double careful = 0.75;  // aims are this part of what is asked
 /// By which a round divides the error, about. In space unknowns cost more than rounds do, and meshes of
 /// several small steps have fewer.
-constexpr double reductionInPlane = 4;
+constexpr double reductionInPlane = 3;
 constexpr double reductionInSpace = 2;
 constexpr double carefulInSpace = 0.86;
 
@@ -25,7 +25,7 @@ constexpr double carefulInSpace = 0.86;
 double leastOf(double asked) {
   constexpr double small = 0.01;
   constexpr double large = 0.1;
-  return leastShare * (1 - 2 * (std::clamp(asked, small, large) - small));
+  return leastShare * (1 - 2.5 * (std::clamp(asked, small, large) - small));
 }
 
 /// The supports of a body in space, as contact asks for them.
@@ -164,8 +164,9 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   constexpr double short_ = 2;
   constexpr double stalled = 0.9;
   constexpr int few = 2000;  // unknowns, of which a round costs next to nothing
-  const int often = meshError_ > 1 || meshes_.unknowns() < few ? 6 : 2;
-  constexpr double first = 0.5;
+  const int often = meshError_ > 1 || meshes_.unknowns() < few ? 6 : 4;
+  constexpr double first = 0.7;
+  constexpr double last = 0.9;
   // On coarse meshes a round may fall short, as bodies that touch between their nodes do so on finer meshes
   // only: more often where the meshes are small or the error is larger than the solution.
   const bool fell = meshError_ < stalled * lowest_;
@@ -177,7 +178,7 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   const double excess = corrected_ / ((space ? carefulInSpace : careful) / leastShare * ofMeshes);
   const double reduction = space ? reductionInSpace : reductionInPlane;
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reduction)));
-  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
+  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : last);
   double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;

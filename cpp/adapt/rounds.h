@@ -2,13 +2,14 @@
 // match, until the estimated error is what was asked for.
 // With E the error of the meshes, corrected for unbounded stresses, over 0.75 of what is asked of it,
 //
-//   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
+//   k = max(1, round(log E / log 3))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
 // equal reductions avoid a mesh that misses the aim by a little and is solved once more at nearly its size.
+// Fewer and larger reductions take more unknowns, as coarse meshes do not show where the error will be.
 // Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.25 of degree 2);
 // before the last round steps are as good as the meshes deserve. One round of refinement is made at least,
-// which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
-// stresses are unbounded the estimate is corrected (adapt/adapted_meshes.h).
+// which divides the error by 1/0.7: on the first meshes an estimate is not trusted, and no rate is known.
+// Where stresses are unbounded the estimate is corrected (adapt/adapted_meshes.h).
 //
 // Where refinement aims at a quantity J, the parts of its error by triangles, products of an error of u and
 // one of the adjoint, go with the mesh like squares of errors in the energy norm, and take their place: E is

@@ -10,9 +10,19 @@ namespace {
 
 constexpr int none = -1;
 
+/// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex
+/// numbers, so that two triangles choose alike.
+std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle) {
+  const auto side = [&](int k) { return rankOfSide(mesh.vertices, triangle[k], triangle[(k + 1) % 3]); };
+  const int longest = side(0) < side(1) ? (side(1) < side(2) ? 2 : 1) : (side(0) < side(2) ? 2 : 0);
+  std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
+  return triangle;
+}
+
 class Bisection {
  public:
   Bisection(const TriangleMesh& mesh, const CurvedEdges& curves) : old_(mesh), curves_(curves) {
+    for (const auto& triangle : mesh.triangles) triangles_.push_back(onItsLongestSide(mesh, triangle));
     numberEdges();
     for (size_t e = 0; e < mesh.edgeCurves.size(); ++e)
       if (mesh.hasCurve(e)) ownCurves_[mesh.boundaryEdges[e]] = &mesh.edgeCurves[e];
@@ -37,8 +47,8 @@ class Bisection {
   void numberEdges() {
     std::unordered_map<int64_t, int> number;
     const auto vertices = static_cast<int64_t>(old_.vertices.size());
-    for (size_t t = 0; t < old_.triangles.size(); ++t) {
-      const auto& v = old_.triangles[t];
+    for (size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& v = triangles_[t];
       std::array<int, 3> sides{};
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(v[k], v[(k + 1) % 3]);
@@ -84,7 +94,7 @@ class Bisection {
       for (int k = 0; k < 3; ++k) {
         const int edge = sides_[t][k];
         if (cut_[edge] == 0 || middle_[edge] != none) continue;
-        addVertex(edge, old_.triangles[t][k], old_.triangles[t][(k + 1) % 3]);
+        addVertex(edge, triangles_[t][k], triangles_[t][(k + 1) % 3]);
       }
   }
 
@@ -112,7 +122,7 @@ class Bisection {
     result_.mesh.regions.clear();
     for (size_t t = 0; t < sides_.size(); ++t) {
       const auto& [ab, bc, ca] = sides_[t];
-      add(old_.triangles[t], {middle_[ab], middle_[bc], middle_[ca]});
+      add(triangles_[t], {middle_[ab], middle_[bc], middle_[ca]});
       const size_t pieces = result_.mesh.triangles.size() - result_.parents.size();
       result_.parents.insert(result_.parents.end(), pieces, static_cast<int>(t));
       result_.mesh.regions.insert(result_.mesh.regions.end(), pieces, old_.regions[t]);
@@ -165,7 +175,7 @@ class Bisection {
     for (size_t t = 0; t < sides_.size(); ++t)
       for (int k = 0; k < 3; ++k)
         if (cut_[sides_[t][k]] != 0)
-          edges[{old_.triangles[t][k], old_.triangles[t][(k + 1) % 3]}] = middle_[sides_[t][k]];
+          edges[{triangles_[t][k], triangles_[t][(k + 1) % 3]}] = middle_[sides_[t][k]];
     result_.mesh.boundaryEdges.clear();
     result_.mesh.boundaryLabels.clear();
     result_.mesh.edgeCurves.clear();
@@ -212,6 +222,7 @@ class Bisection {
 
   const TriangleMesh& old_;
   const CurvedEdges& curves_;
+  std::vector<std::array<int, 3>> triangles_;   // on their longest sides
   std::vector<std::array<int, 3>> sides_;       // of each triangle, the numbers of its edges
   std::vector<std::array<int, 2>> triangleOf_;  // of each edge
   std::vector<char> cut_;                       // edges
@@ -225,17 +236,6 @@ class Bisection {
 };
 
 }  // namespace
-
-void chooseBases(TriangleMesh& mesh) {
-  for (auto& triangle : mesh.triangles) triangle = onItsLongestSide(mesh, triangle);
-}
-
-std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle) {
-  const auto side = [&](int k) { return rankOfSide(mesh.vertices, triangle[k], triangle[(k + 1) % 3]); };
-  const int longest = side(0) < side(1) ? (side(1) < side(2) ? 2 : 1) : (side(0) < side(2) ? 2 : 0);
-  std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
-  return triangle;
-}
 
 RefinedMesh bisect(const TriangleMesh& mesh, const CurvedEdges& curves, const std::vector<char>& marked) {
   return Bisection(mesh, curves).run(marked);

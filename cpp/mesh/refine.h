@@ -1,7 +1,8 @@
-// Triangles cut in two, and their neighbours with them until no vertex lies inside an edge: newest-vertex
-// bisection (Mitchell 1989; Funken, Praetorius and Wissgott 2011). A triangle a, b, c is cut from c to the
-// middle m of its base a-b, which makes c, a, m and b, c, m: their bases are the sides opposite of the new
-// vertex. However often that is done, the triangles of one first triangle have four shapes at most.
+// Triangles cut in two, and their neighbours with them until no vertex lies inside an edge: longest-edge
+// bisection (Rivara 1984). A triangle a, b, c is cut from c to the middle m of its longest side a-b, which
+// makes c, a, m and b, c, m; these are cut once more where c-a or b-c is cut. However often that is done, no
+// angle is smaller than half of the smallest one of the first mesh (Rosenberg and Stenger 1975), and long
+// triangles become rounder.
 #pragma once
 
 #include <algorithm>
@@ -41,13 +42,6 @@ std::tuple<double, int, int> rankOfSide(const std::vector<Place>& vertices, int 
   const double length = std::log2((vertices[high] - vertices[low]).squaredNorm());
   return {std::round(digits * length), high, low};
 }
-
-/// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex
-/// numbers, so that two triangles choose alike.
-std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle);
-
-/// Turns every triangle onto its longest side.
-void chooseBases(TriangleMesh& mesh);
 
 /// Cuts the triangles that are marked, and as many more as it takes. New vertices of curved edges are put
 /// onto their arcs or curves, as far from one end as from the other. Regions, labels, names, the middles and

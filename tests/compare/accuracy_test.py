@@ -119,7 +119,7 @@ mean_pressure = { body = "block", label = 3, from = [-0.25, 0], to = [0.25, 0], 
         # side is refined all the same, as the pressures are those of its nodes.
         _, better = self.run_scene(scene.replace("0.03", "0.01"))
         self.assertTrue(better["accuracy"]["reached"])
-        falling = [each["mesh"] for each in better["rounds"]]
+        falling = [each["mesh"] for each in better["rounds"][1:]]  # that of the first meshes is over 1
         self.assertEqual(falling, sorted(falling, reverse=True))
         other = better["quantities"]["middle"]["bound"]
         self.assertLessEqual(max(other["lower"], middle["bound"]["lower"]),

@@ -39,7 +39,7 @@ HOLE = """\
 degree = 2
 [[body]]
 name = "plate"
-mesh = { shape = "annulus", inner = 1, outer = 25, span = "quarter", cells = [6, 6], cut = "rising" }
+mesh = { shape = "annulus", inner = 1, outer = 50, span = "quarter", cells = [6, 6], cut = "rising" }
 material = { WOOD }
 boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 }, { label = 2, tx = "x/sqrt(x^2+y^2)" } ]
 [accuracy]

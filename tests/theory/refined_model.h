@@ -22,7 +22,6 @@ inline Refined refined(const Model& model, int times) {
     TriangleMesh mesh = body.mesh();
     std::vector<int> parents(mesh.triangles.size());
     for (size_t t = 0; t < parents.size(); ++t) parents[t] = static_cast<int>(t);
-    chooseBases(mesh);
     for (int i = 0; i < 2 * times; ++i) {
       RefinedMesh finer = bisect(mesh, {}, std::vector<char>(mesh.triangles.size(), 1));
       for (int& parent : finer.parents) parent = parents[parent];

@@ -113,7 +113,6 @@ TEST(EdgeCurve, refinedVerticesAndMiddlesAreOnIt) {
     std::swap(mesh.edgeCurves[e].from, mesh.edgeCurves[e].to);
   }
   validate(mesh);
-  chooseBases(mesh);
   std::mt19937 random(4);
   for (int round = 0; round < 15; ++round) {
     std::vector<char> marks(mesh.triangles.size(), 0);
