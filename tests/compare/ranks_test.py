@@ -15,7 +15,8 @@ import results  # behind support: it is in compare/
 
 MPIRUN = ["mpirun", "--oversubscribe", "--quiet", "-n"]
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OPENBLAS_NUM_THREADS": "1"}
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+               "OPENBLAS_NUM_THREADS": "1"}
 SAME = 1e-10  # of the largest value of its kind
 FRICTION = ["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
             "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"]
