@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/ranks.h"
 #include "commands/command_line.h"
-#include "linear/dense_kernels.h"
+#include "linear/blas.h"
 
 using namespace mortier;
 

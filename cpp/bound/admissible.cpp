@@ -105,10 +105,7 @@ std::string Admissible::construct(const State& state, double weight, const Earli
   for (const MatchedPiece& piece : meshes.pieces) {
     pressures.push_back(pressureOn(piece, spread));
     strictness.leastPressure = std::min({strictness.leastPressure, pressures.back()[0], pressures.back()[1]});
-    const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
-    const auto moments = momentsOfLinear(pressures.back(), piece.length);
-    bodies[nonmortar.body].press(piece.vertices[0], piece.normal, moments);
-    bodies[mortar.body].press(piece.vertices[1], -piece.normal, moments);
+    press(piece, model, pressures.back(), bodies);
   }
 
   double largest = 0;

@@ -137,8 +137,7 @@ bool AirySystem::factorise() {
   if (inBlock_.empty()) return true;
   for (Entry& entry : ofBlock_) entry = {number[entry.row()], number[entry.col()], entry.value()};
   const auto size = static_cast<int>(inBlock_.size());
-  block_.resize(size, size);
-  block_.setFromTriplets(ofBlock_.begin(), ofBlock_.end());
+  block_ = assembled(size, size, ofBlock_);
   ofBlock_ = {};
   const int* start = block_.outerIndexPtr();
   for (int c = 0; c < size; ++c)
@@ -200,12 +199,10 @@ void AirySystem::multiplyDiagonal(const Vector& f, Vector& result) const {
   for (int v = 0; v < vertices_; ++v) at(result, v) = diagonal_[v] * f.segment<3>(stride * v);
   for (size_t e = 0; e < sides_.size(); ++e) result[firstSide_ + e] = sides_[e].own * f[firstSide_ + e];
   for (const int mode : inBlock_) result[mode] = 0;
-  for (int c = 0; c < block_.outerSize(); ++c)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(block_, c); entry; ++entry) {
-      const auto r = entry.row();
-      result[inBlock_[r]] += entry.value() * f[inBlock_[c]];
-      if (r != c) result[inBlock_[c]] += entry.value() * f[inBlock_[r]];
-    }
+  forEachEntry(block_, [&](int r, int c, double value) {
+    result[inBlock_[r]] += value * f[inBlock_[c]];
+    if (r != c) result[inBlock_[c]] += value * f[inBlock_[r]];
+  });
 }
 
 bool AirySystem::solve(double part, int most) {

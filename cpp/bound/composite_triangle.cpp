@@ -129,7 +129,7 @@ AiryModes CompositeTriangle::airyOf(const Moments& m) const {
     const Point side = x_[(k + 1) % 3] - x_[k];
     const Point mean(gradient.x() - m[4 * k + 1], gradient.y() + m[4 * k]);
     modes.segment<3>(3 * k) << value, gradient;
-    modes[9 + k] = (mean.x() * side.y() - mean.y() * side.x()) / side.norm();
+    modes[9 + k] = cross(mean, side) / side.norm();
     gradient = {mean.x() - m[4 * k + 3], mean.y() + m[4 * k + 2]};
     value += mean.dot(side);
   }
@@ -149,7 +149,7 @@ MomentMatrix CompositeTriangle::airyEnergy() const {
       const double along = normal.dot(side) / side.squaredNorm();
       K.col(3 * k) -= along * K.col(9 + k);
       K.col(3 * ((k + 1) % 3)) += along * K.col(9 + k);
-      K.col(9 + k) *= (normal.x() * side.y() - normal.y() * side.x()) / side.norm();
+      K.col(9 + k) *= cross(normal, side) / side.norm();
     }
     for (int i = 0; i < 3; ++i)
       K.middleCols<2>(3 * i + 1) = K.middleCols<2>(3 * i + 1).lazyProduct(F_.transpose()).eval();

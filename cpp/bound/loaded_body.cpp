@@ -6,6 +6,7 @@
 #include "base/dense_templates.h"
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
+#include "bound/unresolved_data.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"

@@ -61,11 +61,6 @@ struct MatchedBody {
 
 BodyData readData(const MatchedBody& place, double t);
 
-/// Adds a displacement w = datum times `along` on a side of the boundary. \param side  of MatchedBody::sides
-void moveSide(const MatchedBody& place, int side, const Point& along, const SideDatum& datum, BodyData& data);
-/// The energy norm of such a w, at most.
-double movedEnergy(const MatchedBody& place, int side, const Point& along, const SideDatum& datum);
-
 /// The law of a body, linearised at its stresses. \param weight  time step times the scheme's diagonal
 /// coefficient; 0 for elasticity [s]
 Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weight);
@@ -87,7 +82,7 @@ class LoadedBody {
   /// What linear data leave. Supports along the normals or tangents of a curve (`curvedSupport`) are not
   /// those of nodes.
   [[nodiscard]] const BodyData& data() const { return data_; }
-  /// Adds a displacement on a side between two vertices (body_data.h), or only tells its energy norm.
+  /// Adds a displacement on a side between two vertices (unresolved_data.h), or only tells its energy norm.
   void move(const std::array<int, 2>& vertices, const Point& along, const SideDatum& datum);
   [[nodiscard]] double movedEnergy(const std::array<int, 2>& vertices, const Point& along,
                                    const SideDatum& datum) const;

@@ -161,7 +161,7 @@ class Cutter {
     const bool good = std::all_of(all.begin(), all.end(), [&](const std::array<int, 3>& v) {
       const Point p = at(v[1]) - at(v[0]);
       const Point q = at(v[2]) - at(v[0]);
-      return p.x() * q.y() - p.y() * q.x() > thinnest * p.squaredNorm();
+      return cross(p, q) > thinnest * p.squaredNorm();
     });
     if (!good) {
       mesh.vertices.resize(vertices);

@@ -113,6 +113,14 @@ std::array<double, 2> momentsOfLinear(const std::array<double, 2>& values, doubl
   return {length / 6 * (2 * values[0] + values[1]), length / 6 * (values[0] + 2 * values[1])};
 }
 
+void press(const MatchedPiece& piece, const Model& model, const std::array<double, 2>& pressure,
+           std::vector<LoadedBody>& bodies) {
+  const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
+  const auto moments = momentsOfLinear(pressure, piece.length);
+  bodies[nonmortar.body].press(piece.vertices[0], piece.normal, moments);
+  bodies[mortar.body].press(piece.vertices[1], -piece.normal, moments);
+}
+
 bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std::vector<LoadedBody>& bodies,
                       std::vector<Vector>& spread) {
   const std::vector<Vector> weights = spread;

@@ -26,6 +26,10 @@ std::array<double, 2> pressureOn(const MatchedPiece& piece, const std::vector<Ve
 /// Moments of a linear function by its values at both ends.
 std::array<double, 2> momentsOfLinear(const std::array<double, 2>& values, double length);
 
+/// Loads both bodies by a linear pressure of these values at begin and end.
+void press(const MatchedPiece& piece, const Model& model, const std::array<double, 2>& pressure,
+           std::vector<LoadedBody>& bodies);
+
 /// Changes the coefficients by factors 1 + a + b x, two for each interface, such that bodies that contact
 /// alone holds are in equilibrium. \returns false where that cannot be with pressures that are nowhere
 /// negative

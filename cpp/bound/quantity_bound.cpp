@@ -12,12 +12,13 @@
 namespace mortier {
 namespace {
 
-/// Of sums of a few terms.
 /// Vertices of contact lines: motions there and glue make a dense system (glued_bodies.h).
 constexpr size_t mostFacing = 1000;
 
+/// Integral of two linear functions over a piece.
 double integral(double length, const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  return length / 6 * (2 * a[0] * b[0] + a[0] * b[1] + a[1] * b[0] + 2 * a[1] * b[1]);
+  const std::array<double, 2> moments = momentsOfLinear(a, length);
+  return moments[0] * b[0] + moments[1] * b[1];
 }
 
 /// Integral of s : eps(z) + div s . z over a triangle, s of these moments.
@@ -66,13 +67,7 @@ class Enclosing {
       Q_ += misfits_[b].sum();
     }
     Q_ = std::max(Q_, 0.0);
-    for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
-      const auto& [first, last] = pair.lifting.facingOfPiece[k];
-      addAt(k,
-            integral(pair.meshes.pieces[k].length, pressureOn(pair.meshes.pieces[k], pair.spread),
-                     {facing_[first].gap, facing_[last].gap}),
-            misfits_);
-    }
+    addWorkOfPressure([&](int i) { return facing_[i].gap; }, misfits_);
   }
 
   [[nodiscard]] Enclosure enclose(const Functional& functional) const {
@@ -90,14 +85,7 @@ class Enclosing {
     Enclosure above = enclose(functional, other);
     if (!above.obstacle.empty()) return above;
     std::vector<Vector> between = none();
-    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
-      const auto& [first, last] = pair_.lifting.facingOfPiece[k];
-      addAt(k,
-            integral(pair_.meshes.pieces[k].length, pressureOn(pair_.meshes.pieces[k], pair_.spread),
-                     {other.r[first] - goal.r[first], other.r[last] - goal.r[last]}) /
-                2,
-            between);
-    }
+    addWorkOfPressure([&](int i) { return (other.r[i] - goal.r[i]) / 2; }, between);
     between = onOwnMeshes(between);
     for (size_t b = 0; b < between.size(); ++b)
       above.parts[b] = (above.parts[b] + result.parts[b]) / 2 + between[b];
@@ -144,16 +132,22 @@ class Enclosing {
       result.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size())));
     return result;
   }
-  /// Adds a value to the triangles on both sides of a piece, half to each.
-  void addAt(size_t piece, double value, std::vector<Vector>& to) const {
-    const MatchedPiece& at = pair_.meshes.pieces[piece];
-    const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[at.interface].pair();
-    for (int side = 0; side < 2; ++side) {
-      const int body = side == 0 ? nonmortar.body : mortar.body;
-      const auto& [first, last] = at.vertices[side];
-      for (const int t : pair_.bodies[body].place().sides.trianglesAt(first)) {
-        const auto& v = pair_.bodies[body].mesh().triangles[t];
-        if (std::find(v.begin(), v.end(), last) != v.end()) to[body][t] += value / 2;
+  /// Adds the integrals of p^ times a linear function, given at facing vertices, half of each to the triangle
+  /// on either side.
+  template <class Function>
+  void addWorkOfPressure(const Function& of, std::vector<Vector>& to) const {
+    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
+      const MatchedPiece& piece = pair_.meshes.pieces[k];
+      const auto& ends = pair_.lifting.facingOfPiece[k];
+      const double work = integral(piece.length, pressureOn(piece, pair_.spread), {of(ends[0]), of(ends[1])});
+      const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[piece.interface].pair();
+      for (int side = 0; side < 2; ++side) {
+        const int body = side == 0 ? nonmortar.body : mortar.body;
+        const auto& [first, last] = piece.vertices[side];
+        for (const int t : pair_.bodies[body].place().sides.trianglesAt(first)) {
+          const auto& v = pair_.bodies[body].mesh().triangles[t];
+          if (std::find(v.begin(), v.end(), last) != v.end()) to[body][t] += work / 2;
+        }
       }
     }
   }
@@ -194,7 +188,7 @@ class Enclosing {
       bodies[functional.body].push(goal.triangle, goal.force);
     else
       bodies[functional.body].pull(functional.label, goal.traction);
-    const auto q = adjointPressure(glued->solution.forces, bodies, c);
+    const auto q = adjointPressure(pair_, glued->solution.forces, bodies, c);
     if (!q) return std::nullopt;
     for (size_t k = 0; k < q->size(); ++k)
       for (Eigen::Index row = 0; row < (*q)[k].size(); ++row)
@@ -202,13 +196,10 @@ class Enclosing {
     double pressed = 0;  // force of p^
     for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
       const MatchedPiece& piece = pair_.meshes.pieces[k];
-      const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[piece.interface].pair();
       const auto values = pressureOn(piece, *q);
-      const auto moments = momentsOfLinear(values, piece.length);
       const auto pressures = pressureOn(piece, pair_.spread);
       pressed += piece.length * (pressures[0] + pressures[1]) / 2;
-      bodies[nonmortar.body].press(piece.vertices[0], piece.normal, moments);
-      bodies[mortar.body].press(piece.vertices[1], -piece.normal, moments);
+      press(piece, pair_.model, values, bodies);
       const auto& [first, last] = pair_.lifting.facingOfPiece[k];
       trial.centre += integral(piece.length, values, {facing_[first].gap, facing_[last].gap});
       trial.centre += integral(piece.length, pressures, {glued_.jump(z, first), glued_.jump(z, last)});
@@ -314,32 +305,6 @@ class Enclosing {
       found.solution = std::move(*solution);
       return found;
     }
-  }
-
-  /// Coefficients of q, as p^ is spread, and where p^ is not 0.
-  [[nodiscard]] std::optional<std::vector<Vector>> adjointPressure(const Vector& glue,
-                                                                   const std::vector<LoadedBody>& bodies,
-                                                                   double c) const {
-    std::vector<Vector> forces;
-    for (const Vector& each : pair_.spread) forces.emplace_back(Vector::Zero(each.size()));
-    std::vector<char> done(facing_.size(), 0);
-    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
-      const MatchedPiece& piece = pair_.meshes.pieces[k];
-      for (int end = 0; end < 2; ++end) {
-        const int i = pair_.lifting.facingOfPiece[k][end];
-        if (std::exchange(done[i], 1) != 0) continue;
-        for (int row = 0; row < 2 && piece.rows[row] >= 0; ++row)
-          forces[piece.interface][piece.rows[row]] += piece.values[row][end] * glue[i];
-      }
-    }
-    std::vector<Vector> q = spreadForces(pair_.model, forces, pair_.meshes);
-    for (size_t k = 0; k < q.size(); ++k)
-      for (Eigen::Index row = 0; row < q[k].size(); ++row) {
-        const double p = pair_.spread[k][row];
-        q[k][row] = p > 0 ? std::clamp(q[k][row], -c * p, c * p) : 0;
-      }
-    if (!balanceBy(pair_.spread, pair_.model, pair_.meshes, bodies, q)) return std::nullopt;
-    return q;
   }
 
   const Admissible& pair_;

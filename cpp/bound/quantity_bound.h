@@ -42,6 +42,11 @@ enum class Against { below, above };
 
 Goal goalOf(const Admissible& pair, const Functional& functional, Against side = Against::below);
 
+/// Coefficients of q, spread as p^ and zero where it is, |q| <= c p^. \param glue  forces by facing vertices
+/// \param bodies  of z, under their loads. \returns none where no such q is in equilibrium with them
+std::optional<std::vector<Vector>> adjointPressure(const Admissible& pair, const Vector& glue,
+                                                   const std::vector<LoadedBody>& bodies, double c);
+
 /// The largest |R|. \param misfit  |E eps z - t|
 double largestRemainder(double Q, double misfit, double c);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bound/pressures.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -156,6 +157,30 @@ Goal goalOf(const Admissible& pair, const Functional& functional, Against side) 
     goal.loads[functional.body] = pulled.load();
   }
   return goal;
+}
+
+std::optional<std::vector<Vector>> adjointPressure(const Admissible& pair, const Vector& glue,
+                                                   const std::vector<LoadedBody>& bodies, double c) {
+  std::vector<Vector> forces;
+  for (const Vector& each : pair.spread) forces.emplace_back(Vector::Zero(each.size()));
+  std::vector<char> done(pair.lifting.facing.size(), 0);
+  for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
+    const MatchedPiece& piece = pair.meshes.pieces[k];
+    for (int end = 0; end < 2; ++end) {
+      const int i = pair.lifting.facingOfPiece[k][end];
+      if (std::exchange(done[i], 1) != 0) continue;
+      for (int row = 0; row < 2 && piece.rows[row] >= 0; ++row)
+        forces[piece.interface][piece.rows[row]] += piece.values[row][end] * glue[i];
+    }
+  }
+  std::vector<Vector> q = spreadForces(pair.model, forces, pair.meshes);
+  for (size_t k = 0; k < q.size(); ++k)
+    for (Eigen::Index row = 0; row < q[k].size(); ++row) {
+      const double p = pair.spread[k][row];
+      q[k][row] = p > 0 ? std::clamp(q[k][row], -c * p, c * p) : 0;
+    }
+  if (!balanceBy(pair.spread, pair.model, pair.meshes, bodies, q)) return std::nullopt;
+  return q;
 }
 
 }  // namespace mortier

@@ -47,23 +47,14 @@
 // (Hild 2000; Bernardi, Maday, Patera 1994; curves: Yang, Laursen, Meng 2005.)
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
+#include "base/sparse.h"
 #include "base/types.h"
 #include "contact/facing_line.h"
 
 namespace mortier {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
-template <class Sparse = Eigen::SparseMatrix<double>>
-Sparse assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
-  Sparse matrix(rows, columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
 
 enum class CouplingKind { interpolation, mortar, weighted, coarsened };
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
+#include "base/digits.h"
 #include "base/error.h"
 #include "contact/interface_entries.h"
 #include "mesh/triangle_mesh.h"
@@ -93,41 +93,34 @@ namespace {
 /// Columns 2 node + component of a line to dofs of its mesh.
 void scatter(const Eigen::SparseMatrix<double>& values, const ElementLine& line,
              const std::vector<int>& rowOf, Triplets& entries) {
-  for (int j = 0; j < values.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(values, j); entry; ++entry)
-      entries.emplace_back(rowOf[entry.row()], 2 * line.number(j / 2) + j % 2, entry.value());
+  forEachEntry(values, [&](int row, int column, double value) {
+    entries.emplace_back(rowOf[row], 2 * line.number(column / 2) + column % 2, value);
+  });
 }
 
 /// The same with every direction turned by +90 degrees.
 ConstraintRows turned(const ConstraintRows& rows) {
   Triplets entries;
-  for (int row = 0; row < rows.rows(); ++row)
-    for (ConstraintRows::InnerIterator entry(rows, row); entry; ++entry) {
-      const int dof = static_cast<int>(entry.col());
-      entries.emplace_back(row, dof ^ 1, dof % 2 == 0 ? entry.value() : -entry.value());
-    }
+  forEachEntry(rows, [&](int row, int dof, double value) {
+    entries.emplace_back(row, dof ^ 1, dof % 2 == 0 ? value : -value);
+  });
   return assembled<ConstraintRows>(rows.rows(), rows.cols(), entries);
 }
 
 /// \throws InputError when the distances are not such as the user wants them.
-void requireAllowed(const Vector& distance, InitialGap initial, double shorter, const std::string& names) {
+void requireAllowed(double least, double most, InitialGap initial, double shorter, const std::string& names) {
   const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
-    std::ostringstream message;
-    message << names << what << by << " as meshed, expected " << expected;
-    throw InputError(message.str());
+    throw InputError(names + what + digits(by, 6) + " as meshed, expected " + expected);
   };
-  const double least = distance.minCoeff();
   if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter) {
-    std::ostringstream expected;
-    expected << "at most " << largestPenetration * shorter
-             << " (a hundredth of the shorter line); initial = \"close\" would let them touch";
-    refuse(" penetrate each other by ", -least, expected.str());
+    refuse(" penetrate each other by ", -least,
+           "at most " + digits(largestPenetration * shorter, 6) +
+               " (a hundredth of the shorter line); initial = \"close\" would let them touch");
   }
   if (initial != InitialGap::reject) return;
   const std::string expected = "bodies that touch (initial = \"reject\")";
   if (least < -touchingInFile * shorter) refuse(" penetrate each other by ", -least, expected);
-  if (distance.maxCoeff() > touchingInFile * shorter)
-    refuse(" are apart by up to ", distance.maxCoeff(), expected);
+  if (most > touchingInFile * shorter) refuse(" are apart by up to ", most, expected);
 }
 
 }  // namespace
@@ -161,12 +154,9 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
     drawLines(nonmortar, mortar, options);
     follow(Vector::Zero(C1_.cols()), Vector::Zero(C2_.cols()));
   } else if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
-    if (const double angle = angleBetween(parts, mortar); angle < 120) {
-      std::ostringstream message;
-      message << names << " do not face each other: their outward normals make an angle of " << angle
-              << " degrees, expected 180, or 120 at least";
-      throw InputError(message.str());
-    }
+    if (const double angle = angleBetween(parts, mortar); angle < 120)
+      throw InputError(names + " do not face each other: their outward normals make an angle of " +
+                       digits(angle, 6) + " degrees, expected 180, or 120 at least");
   } else {
     assemble(parts, facing, nonmortarMesh, mortarMesh, options);
   }
@@ -189,8 +179,8 @@ void ContactInterface::settleDistance(InitialGap initial, double shorter, const 
     if (faces(row)) distances.push_back(distance);
   }
   if (distances.empty()) return;
-  requireAllowed(Eigen::Map<const Vector>(distances.data(), static_cast<Eigen::Index>(distances.size())),
-                 initial, shorter, names);
+  const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
+  requireAllowed(*least, *most, initial, shorter, names);
 }
 
 void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
@@ -236,9 +226,9 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     penetration_.add(part, facing[k], distance, axisymmetric_);
     lengths.insert(lengths.end(), coupling.lengths.begin(), coupling.lengths.end());
     if (!options.gapInTime) continue;
-    for (int j = 0; j < coupling.N.outerSize(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.N, j); entry; ++entry)
-        entries.given.emplace_back(firstRow + static_cast<int>(entry.row()), part.number(j), entry.value());
+    forEachEntry(coupling.N, [&](int row, int node, double value) {
+      entries.given.emplace_back(firstRow + row, part.number(node), value);
+    });
     for (int j = 0; j < part.traceNodes(); ++j) {
       const Point& place = nonmortarMesh.nodes.places[part.number(j)];
       gapNodes_.emplace_back(part.number(j), SpacePoint(place.x(), place.y(), 0));
@@ -261,9 +251,9 @@ void ContactInterface::Entries::add(const Coupling& coupling, const SmoothPart& 
                                     const FacingLine& facing, const std::vector<int>& rowOf) {
   scatter(coupling.C1, part, rowOf, nonmortar);
   scatter(coupling.C2, facing, rowOf, mortar);
-  for (int j = 0; j < coupling.mass.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.mass, j); entry; ++entry)
-      mass.emplace_back(rowOf[entry.row()], rowOf[j], entry.value());
+  forEachEntry(coupling.mass, [&](int row, int column, double value) {
+    mass.emplace_back(rowOf[row], rowOf[column], value);
+  });
 }
 
 void ContactInterface::setRows(const Entries& entries) {
@@ -281,12 +271,9 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   const auto columns = [](auto& rows, int perNode, const std::vector<int>& number, int nodes) {
     using Rows = std::remove_reference_t<decltype(rows)>;
     Triplets entries;
-    for (int j = 0; j < rows.outerSize(); ++j)
-      for (typename Rows::InnerIterator entry(rows, j); entry; ++entry) {
-        const int column = static_cast<int>(entry.col());
-        entries.emplace_back(static_cast<int>(entry.row()),
-                             perNode * number[column / perNode] + column % perNode, entry.value());
-      }
+    forEachEntry(rows, [&](int row, int column, double value) {
+      entries.emplace_back(row, perNode * number[column / perNode] + column % perNode, value);
+    });
     rows = assembled<Rows>(rows.rows(), static_cast<Eigen::Index>(perNode) * nodes, entries);
   };
   ContactInterface result = *this;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sparse.h"
 #include "fem/body.h"
 
 namespace mortier {
@@ -85,7 +86,7 @@ Eigen::SparseMatrix<double> Body::changeOfMoved(const Vector& displacement,
   const Point angle = turned(across) / across.squaredNorm();
   const Eigen::Vector3d motion = motionOf(displacement);
   const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(motion[2]).toRotationMatrix();
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   const auto add = [&](int node, int of, const Eigen::Matrix2d& by) {
     for (const int row : {0, 1})
       for (const int column : {0, 1}) entries.emplace_back(2 * node + row, 2 * of + column, by(row, column));
@@ -96,9 +97,7 @@ Eigen::SparseMatrix<double> Body::changeOfMoved(const Vector& displacement,
     add(node, a, Eigen::Matrix2d::Identity() - byAngle);
     add(node, b, byAngle);
   }
-  Eigen::SparseMatrix<double> change(dofs(), dofs());
-  change.setFromTriplets(entries.begin(), entries.end());
-  return change;
+  return assembled(dofs(), dofs(), entries);
 }
 
 }  // namespace mortier

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "base/dense_templates.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -176,18 +176,13 @@ std::string describeRigidMotion(const Body& body, const Vector& motion) {
                 negligible * largest;
   const Eigen::Vector3d a = fitted.normalized();
   const auto shown = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value; };
-  std::ostringstream text;
-  text.precision(4);
-  if (shown(a[2]) == 0) {
-    const Point direction = Point(a[0], a[1]).normalized();
-    text << "translation along (" << shown(direction.x()) << ", " << shown(direction.y()) << ")";
-  } else {
-    text << "rotation about (" << frame.centre.x() - shown(a[1]) / a[2] * frame.radius << ", "
-         << frame.centre.y() + shown(a[0]) / a[2] * frame.radius << ")";
-  }
-  if (components.vertices.size() > 1 && !whole)
-    text << ", of its part around (" << frame.centre.x() << ", " << frame.centre.y() << ")";
-  return text.str();
+  const Point direction = Point(a[0], a[1]).normalized();
+  const std::string text =
+      shown(a[2]) == 0 ? "translation along " + placeText(Point(shown(direction.x()), shown(direction.y())))
+                       : "rotation about " +
+                             placeText(frame.centre + frame.radius / a[2] * Point(-shown(a[1]), shown(a[0])));
+  if (components.vertices.size() == 1 || whole) return text;
+  return text + ", of its part around " + placeText(frame.centre);
 }
 
 namespace {
@@ -292,11 +287,7 @@ std::string describeSpaceMotion(const Body& body, const Vector& motion) {
   }
   const Vector fitted = Matrix(normal).partialPivLu().solve(Vector(right)).normalized();
   const auto shown = [](const SpacePoint& x) {
-    std::ostringstream text;
-    text.precision(4);
-    const auto number = [](double value) { return std::abs(value) < nothing ? 0.0 : value; };
-    text << "(" << number(x.x()) << ", " << number(x.y()) << ", " << number(x.z()) << ")";
-    return text.str();
+    return placeText(x.unaryExpr([](double value) { return std::abs(value) < nothing ? 0.0 : value; }), 3);
   };
   const auto axis = [&](const SpacePoint& direction) {
     for (int c = 0; c < 3; ++c)

@@ -10,6 +10,13 @@ void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* inf
 
 namespace mortier::dense {
 
+/// Lets BLAS use one thread: bodies, pieces of the factorisation and tiles of large fronts run in parallel.
+void useOneThread();
+
+/// And ends the threads that BLAS began when it was loaded, one per core: they wait busily for a while. For a
+/// program that nothing else in its process calls BLAS for.
+void endThreadsOfBlas();
+
 /// L of the leading block. \returns whether it is positive definite
 inline bool cholesky(int n, float* A, int ld) {
   int info = 0;

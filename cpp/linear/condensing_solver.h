@@ -78,7 +78,7 @@ std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePatter
                                                               const std::vector<int>& kept);
 
 /// The same by Cholesky in single precision: half of the memory and nearly of the time. What it solves is off
-/// by the rounding of single precision times the condition of K; repeated solves for what is left take that
+/// by the rounding of single precision times the condition of K; repeated solves for the residual take that
 /// away.
 std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, const std::vector<int>& kept);
 

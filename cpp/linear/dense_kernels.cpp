@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <experimental/simd>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,38 +14,12 @@ extern "C" {
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
 void dlaswp_(const int* n, double* a, const int* lda, const int* first, const int* last, const int* ipiv,
              const int* step);
-// Of OpenBLAS, where it has threads, and kernels for many processors.
-int blas_thread_shutdown_() __attribute__((weak));
-void gotoblas_dynamic_init() __attribute__((weak));
-void gotoblas_dynamic_quit() __attribute__((weak));
 }
 
 namespace mortier::dense {
 namespace {
 
 namespace stdx = std::experimental;
-
-/// OpenBLAS takes a processor that is newer than itself for one without AVX, and is half as fast: it gets the
-/// kernels for AVX2 where the processor has it. \returns whether it did
-bool useVectorUnits() {
-#ifdef __x86_64__
-  constexpr const char* kernels = "OPENBLAS_CORETYPE";
-  if (gotoblas_dynamic_init == nullptr || gotoblas_dynamic_quit == nullptr ||
-      std::getenv(kernels) != nullptr || std::string_view(openblas_get_corename()) != "Prescott" ||
-      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
-    return false;
-  setenv(kernels, "Haswell", 1);
-  gotoblas_dynamic_quit();
-  gotoblas_dynamic_init();
-  unsetenv(kernels);
-  return true;
-#else
-  return false;
-#endif
-}
-
-/// When the program or the module is loaded: BLAS may not be at work.
-[[maybe_unused]] const bool usesVectorUnits = useVectorUnits();
 
 /// Below this many pivots a call of BLAS costs more than the loops it saves.
 constexpr int smallPivots = 12;
@@ -218,15 +190,6 @@ bool tiledLU(double* panel, int n, int pivots, int* interchange, const Tiles& ti
 bool isLarge(int n, int pivots) {
   constexpr double least = 2e7;  // multiplications worth the locks of their tiles
   return static_cast<double>(pivots) * n * n > least;
-}
-
-void useOneThread() {
-  openblas_set_num_threads(1);
-}
-
-void endThreadsOfBlas() {
-  useOneThread();
-  if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 
 template <class Real>

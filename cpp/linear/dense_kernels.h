@@ -23,13 +23,6 @@ bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>*
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange,
                Threads& threads);
 
-/// Lets BLAS use one thread: bodies, pieces of the factorisation and tiles of large fronts run in parallel.
-void useOneThread();
-
-/// And ends the threads that BLAS began when it was loaded, one per core: they wait busily for a while. For a
-/// program that nothing else in its process calls BLAS for.
-void endThreadsOfBlas();
-
 /// Interchanges the first n entries of x as partialLU told.
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.

@@ -1,7 +1,7 @@
 // Multifrontal Cholesky and LU over one symbolic analysis. In the front of a supernode
 //   F = [F11 F12; F21 F22]  (pivots first),   F11 = L11 U11,   L21 = F21 U11^-1,   U12 = L11^-1 F12,
 // and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held.
-// The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
+// The last front stops at the kept equations: its remainder is the Schur complement. LU pivots inside
 // the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
 // In single precision K is scaled by a power of two, and so are right-hand sides: none leaves its range.
 #include "linear/condensing_solver.h"
@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "linear/blas.h"
 #include "linear/dense_kernels.h"
 #include "linear/elimination.h"
 
@@ -48,6 +49,7 @@ class Multifrontal final : public CondensingSolver {
         factors_(plan_.fronts.size()),
         updates_(plan_.fronts.size()),
         stacks_(pieces_.all.size()) {
+    dense::useOneThread();
     for (size_t s = 0; s < plan_.fronts.size(); ++s) {
       const Front& front = plan_.fronts[s];
       factors_[s] = {panelSize_, panelSize_ + front.panelSize(), pivotSize_};
@@ -274,12 +276,9 @@ class Multifrontal final : public CondensingSolver {
 
   void keepSchurComplement(const Real* update) {
     const Eigen::Index m = plan_.kept;
-    schur_.resize(m, m);
-    for (Eigen::Index j = 0; j < m; ++j)
-      for (Eigen::Index i = symmetric_ ? j : 0; i < m; ++i) {
-        schur_(i, j) = update[m * j + i] / scale_;
-        if (symmetric_) schur_(j, i) = schur_(i, j);
-      }
+    using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+    schur_ = Eigen::Map<const Square>(update, m, m).template cast<double>() / scale_;
+    if (symmetric_) schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
   }
 
   /// x1 becomes L11^-1 (x1 - sum of what children pass), and that sum plus L21 x1 is passed on.
@@ -335,19 +334,16 @@ class Multifrontal final : public CondensingSolver {
 
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept) {
-  dense::useOneThread();
   return std::make_unique<Multifrontal<double>>(pattern, kept, false);
 }
 
 std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
-  dense::useOneThread();
   if (!pattern.symmetric) throw std::logic_error("factors in single precision are of symmetric matrices");
   return std::make_unique<Multifrontal<float>>(pattern, kept, true);
 }
 
 std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
                                                               const std::vector<int>& kept) {
-  dense::useOneThread();
   return std::make_unique<Multifrontal<double>>(pattern, kept, true);
 }
 

@@ -1,10 +1,11 @@
 #include "material/anisotropy.h"
 
 #include <Eigen/Geometry>
-#include <sstream>
 
 #include "base/dense_templates.h"
+#include "base/digits.h"
 #include "base/error.h"
+#include "material/component_basis.h"
 #include "material/interior_path.h"
 #include "material/parts.h"
 #include "material/point_material.h"
@@ -14,14 +15,7 @@ namespace {
 
 /// From (s11, s22, s12) to (p, q, r), s33 as it is; or from s11, s22, s12, s33, s13, s23 to those of space.
 Matrix basis(Eigen::Index n) {
-  constexpr double h = std::numbers::sqrt2 / 2;
-  Matrix T = Matrix::Identity(n, n);
-  constexpr std::array inSpace{0, 1, 3, 2, 4, 5};
-  if (n < 6)
-    T.topLeftCorner<3, 3>() << h, h, 0, h, -h, 0, 0, 0, std::numbers::sqrt2;
-  else
-    for (int j = 0; j < 6; ++j) T.col(j) = fromSpaceCartesian(SpaceStress::Unit(inSpace[j]));
-  return T;
+  return n == 6 ? Matrix(byComponents<6>()) : Matrix(byComponents<4>().topLeftCorner(n, n));
 }
 
 /// Rows and columns of the components in a tensor.
@@ -40,10 +34,8 @@ void requireElliptic(const Matrix& tensor, const std::string& what, const std::s
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(tensor, Eigen::EigenvaluesOnly);
   const double smallest = eigen.eigenvalues()[0];
   if (smallest > rounding * tensor.cwiseAbs().maxCoeff()) return;
-  std::ostringstream message;
-  message << "the smallest eigenvalue of " << what << " is " << smallest << ' ' << unit
-          << ", expected > 0 (elliptic)";
-  throw InputError(message.str());
+  throw InputError("the smallest eigenvalue of " + what + " is " + digits(smallest, 6) + " " + unit +
+                   ", expected > 0 (elliptic)");
 }
 
 Eigen::Index componentsIn(Plane plane) {
@@ -64,8 +56,7 @@ void soften(const std::array<Lanes, n * n>& F, std::array<Lanes, n * n>& D, std:
   std::array<Lanes, n * n> M;
   for (size_t j = 0; j < n; ++j)
     for (size_t i = 0; i < n; ++i) {
-      B[n * j + i] = 0;
-      X[n * j + i] = 0;
+      B[n * j + i] = X[n * j + i] = 0;
       for (size_t k = 0; k < n; ++k) {
         B[n * j + i] += D[n * k + i] * F[n * j + k];
         X[n * j + i] += F[n * i + k] * D[n * j + k];
@@ -348,14 +339,12 @@ Elasticity stiffestOf(const Anisotropy& anisotropy) {
 std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy,
                                                     std::shared_ptr<const Material> isotropic,
                                                     const std::vector<double>& angles) {
-  switch (isotropic->components()) {
-    case 3:
-      return std::make_shared<AnisotropicMaterial<3>>(anisotropy, std::move(isotropic), angles);
-    case 4:
-      return std::make_shared<AnisotropicMaterial<4>>(anisotropy, std::move(isotropic), angles);
-    default:
-      return std::make_shared<AnisotropicMaterial<6>>(anisotropy, std::move(isotropic), angles);
-  }
+  const int components = isotropic->components();
+  if (components == 3)
+    return std::make_shared<AnisotropicMaterial<3>>(anisotropy, std::move(isotropic), angles);
+  if (components == 4)
+    return std::make_shared<AnisotropicMaterial<4>>(anisotropy, std::move(isotropic), angles);
+  return std::make_shared<AnisotropicMaterial<6>>(anisotropy, std::move(isotropic), angles);
 }
 
 }  // namespace mortier

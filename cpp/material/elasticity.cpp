@@ -1,9 +1,9 @@
 #include "material/elasticity.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "material/deviatoric.h"
 
 namespace mortier {
@@ -14,9 +14,7 @@ Eigen::Array3d Elasticity::moduli() const {
 
 void requireParameter(bool holds, const char* name, double value, const char* expected) {
   if (holds && std::isfinite(value)) return;
-  std::ostringstream message;
-  message << name << " = " << value << ", expected " << expected;
-  throw InputError(message.str());
+  throw InputError(formatted("%s = %g, expected %s", name, value, expected));
 }
 
 void requireValid(const Elasticity& elasticity) {

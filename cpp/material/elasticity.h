@@ -23,6 +23,16 @@ void requireValid(const Elasticity& elasticity);
 LawDescription describe(const Elasticity& elasticity);
 LawDescription describe(const std::string& name, const Elasticity& elasticity);
 
+/// On n directions, all but the first alike.
+template <size_t n>
+std::array<double, n> onDirections(const Pair& values) {
+  std::array<double, n> all;
+  all.fill(values[1]);
+  all[0] = values[0];
+  return all;
+}
+
+/// Elasticity, and what the other isotropic laws have from it.
 template <size_t n = 3>
 class ElasticLaw {
  public:
@@ -32,10 +42,7 @@ class ElasticLaw {
   static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]
-  explicit ElasticLaw(const Pair& e) {
-    e_.fill(e[1]);
-    e_[0] = e[0];
-  }
+  explicit ElasticLaw(const Pair& e) : e_(onDirections<n>(e)) {}
 
   static bool symmetric() { return true; }
   static double stressScale() { return 0; }
@@ -52,9 +59,7 @@ class ElasticLaw {
   }
 
   [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const {
-    Stress lanes;
-    for (size_t k = 0; k < n; ++k) lanes[k] = e_[k];
-    PointAnswer<n> answer{point.stress0, {}, diagonalMinusRankOne<n>(lanes, 0, {}, {})};
+    PointAnswer<n> answer{point.stress0, {}, moduli()};
     for (size_t k = 0; k < n; ++k) {
       answer.predictor[k] += e_[k] * point.strain[k];
       answer.change[k] = answer.predictor[k] - point.stress[k];
@@ -68,7 +73,19 @@ class ElasticLaw {
     return answer;
   }
 
- private:
+ protected:
+  [[nodiscard]] std::array<Lanes, n * n> moduli() const {
+    Stress diagonal;
+    for (size_t k = 0; k < n; ++k) diagonal[k] = e_[k];
+    return diagonalMinusRankOne<n>(diagonal, 0, {}, {});
+  }
+  /// strain - E^-1 (s - s0): the strain of the flow.
+  [[nodiscard]] Stress flowStrain(const PointStep<n>& point) const {
+    Stress v = point.strain;
+    for (size_t k = 0; k < n; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
+    return v;
+  }
+
   std::array<double, n> e_;
 };
 

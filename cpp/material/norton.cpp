@@ -6,12 +6,8 @@
 namespace mortier {
 
 template <size_t n>
-NortonLaw<n>::NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep) : creep_(creep) {
-  e_.fill(e[1]);
-  a_.fill(a[1]);
-  e_[0] = e[0];
-  a_[0] = a[0];
-}
+NortonLaw<n>::NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep)
+    : ElasticLaw<n>(e), a_(onDirections<n>(a)), creep_(creep) {}
 
 template <size_t n>
 Lanes NortonLaw<n>::square(const Stress& stress) const {
@@ -29,13 +25,6 @@ Lanes NortonLaw<n>::logarithm(double weight, const Lanes& square) const {
   const double atReference =
       std::log(weight) + std::log(creep_.referenceRate) - std::log(creep_.referenceStress);
   return atReference + (creep_.exponent - 1) / 2 * log(square);
-}
-
-template <size_t n>
-std::array<Lanes, n> NortonLaw<n>::rest(const PointStep<n>& point) const {
-  Stress v = point.strain;
-  for (size_t k = 0; k < n; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
-  return v;
 }
 
 // With v = strain - E^-1 (s - s0) the law is v = weight G(s). It is linearised at a stress x = l s: as
@@ -56,7 +45,7 @@ PointAnswer<n> NortonLaw<n>::linearise(const PointStep<n>& point) const {
   constexpr double farthest = 30;  // of log l
   constexpr double stiffest = 70;  // of log(theta e), far beyond what doubles resolve
   const double power = creep_.exponent;
-  const Stress v = rest(point);
+  const Stress v = this->flowStrain(point);
   const Lanes g2 = square(point.stress);
   const Lanes vM = creep_.referenceStress * sqrt(g2);
   const Lanes kappa = logarithm(point.weight, g2) + std::log(e_[1]);  // log(E kappa)
@@ -100,7 +89,7 @@ PointAnswer<n> NortonLaw<n>::regularise(const PointStep<n>& point, const Lanes& 
   constexpr int most = 100;
   constexpr double last = 1e-14;
   const double power = creep_.exponent;
-  const Stress v = rest(point);
+  const Stress v = this->flowStrain(point);
   Stress x = point.stress;
   Stress xOverB;
   for (size_t k = 0; k < n; ++k) {
@@ -125,9 +114,7 @@ PointAnswer<n> NortonLaw<n>::regularise(const PointStep<n>& point, const Lanes& 
     moving = moving && abs(step) > last * max(Lanes(1), abs(y));
   }
   const Lanes theta = exp(y);
-  Stress elastic;
-  for (size_t k = 0; k < n; ++k) elastic[k] = e_[k];
-  PointAnswer<n> answer{point.stress, {}, diagonalMinusRankOne<n>(elastic, 0, {}, {}), true};
+  PointAnswer<n> answer{point.stress, {}, this->moduli(), true};
   for (size_t k = 0; k < n; ++k) {
     const Lanes tb = 0.5 * theta * e_[k] * a_[k];
     answer.change[k] = (0.5 * e_[k] * v[k] - tb * point.stress[k]) / (1 + tb);

@@ -25,18 +25,14 @@ LawDescription describe(const Elasticity& elasticity, const NortonCreep& creep);
 /// On n directions in which E and the von Mises stress are diagonal, all but the first alike: 3, or the 5 of
 /// a deviator in space.
 template <size_t n = 3>
-class NortonLaw {
+class NortonLaw : public ElasticLaw<n> {
  public:
-  static constexpr int components = n;
   using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
-  static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a  of vM^2 [-]
   NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep);
 
-  static bool symmetric() { return true; }
-  static double stressScale() { return 0; }
   /// Not known without a stress.
   static double stiffness(double weight) { return weight > 0 ? 1 : 0; }
   template <class Scalar>
@@ -45,12 +41,7 @@ class NortonLaw {
     for (size_t k = 1; k < n; ++k) square += stress[k] * stress[k];
     return square > 0;
   }
-  static Lanes penalty(const Stress& /*stress*/) { return 0; }
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const;
-  [[nodiscard]] Stress elasticStrain(Stress stress) const {
-    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
-    return stress;
-  }
   [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const;
   [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& penalty) const;
 
@@ -59,10 +50,8 @@ class NortonLaw {
   [[nodiscard]] Lanes square(const Stress& stress) const;
   /// Of weight (rate0/sigma0) (vM/sigma0)^(n-1) [1/Pa], where that is square(s).
   [[nodiscard]] Lanes logarithm(double weight, const Lanes& square) const;
-  /// strain - E^-1 (s - s0): what is left for the flow.
-  [[nodiscard]] Stress rest(const PointStep<n>& point) const;
 
-  std::array<double, n> e_;
+  using ElasticLaw<n>::e_;
   std::array<double, n> a_;
   NortonCreep creep_;
 };

@@ -20,14 +20,11 @@ void Overstress::setViscosity(double viscosity) {
 // is there but for the residual.
 template <size_t n>
 OverstressFlow<n>::OverstressFlow(const Pair& e, const Pair& a, const Overstress& law)
-    : least_(std::min(e[0] * a[0], e[1] * a[1])),
+    : e_(onDirections<n>(e)),
+      a_(onDirections<n>(a)),
+      least_(std::min(e[0] * a[0], e[1] * a[1])),
       onSurface_(law.viscous() ? 1 - 1e-10 : 1 - 1e-7),
-      law_(law) {
-  e_.fill(e[1]);
-  a_.fill(a[1]);
-  e_[0] = e[0];
-  a_[0] = a[0];
-}
+      law_(law) {}
 
 template <size_t n>
 Lanes OverstressFlow<n>::mises(const Stress& z) const {

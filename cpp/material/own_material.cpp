@@ -1,6 +1,7 @@
 #include "material/own_material.h"
 
 #include <limits>
+#include <numeric>
 
 #include "base/dense_templates.h"
 #include "base/error.h"
@@ -14,14 +15,13 @@ namespace {
 
 template <int n>
 Eigen::Matrix<double, n, n> elasticityTensor(const Elasticity& elasticity) {
-  using Tensor = Eigen::Matrix<double, n, n>;
   if constexpr (n == 3) return elasticity.moduli().matrix().asDiagonal();
   const double shear = elasticity.young / (1 + elasticity.poisson);
   const double bulk = elasticity.young / (1 - 2 * elasticity.poisson);
   Eigen::Matrix<double, n, 1> volume = Eigen::Matrix<double, n, 1>::Zero();
   volume[0] = n == 6 ? 0 : rootTwoThirds;
   volume[n - 1] = n == 6 ? 1 : overRoot3;
-  return shear * Tensor::Identity() + (bulk - shear) * volume * volume.transpose();
+  return shear * Eigen::Matrix<double, n, n>::Identity() + (bulk - shear) * volume * volume.transpose();
 }
 
 template <int n>
@@ -197,8 +197,8 @@ class OwnMaterial final : public Material {
       const Vec r = problem.rhs.col(which[k]) - elastic - flow;
       if (!r.allFinite()) continue;
       const auto slopesAt = [&](int row) { return turned(Eigen::Map<const Slopes>(&slopes(row, column))); };
-      const Mat inverse =
-          Mat(problem.compliances * C_ + problem.weight * slopesAt(0)).partialPivLu().inverse();
+      const Mat tangent = problem.compliances * C_ + problem.weight * slopesAt(0);
+      const Mat inverse = tangent.partialPivLu().inverse();
       Solved solved{norm(r), norm(elastic) + norm(flow) + norm(problem.rhs.col(which[k])), inverse * r,
                     inverse};
       if (needsTotalStrain())
@@ -240,7 +240,7 @@ class OwnMaterial final : public Material {
     constexpr int manyShort = 60;
     const int count = static_cast<int>(start.cols());
     std::vector<int> all(count);
-    for (int i = 0; i < count; ++i) all[i] = i;
+    std::iota(all.begin(), all.end(), 0);
     local.solved = linearised(problem, local.points, all, local.points.stress);
     std::vector<int> far;
     for (int i = 0; i < count; ++i)
@@ -302,10 +302,7 @@ class OwnMaterial final : public Material {
   static void store(const Mat& H, int point, Linearisation& result) {
     constexpr int block = n == 6 ? 6 : 3;
     result.moduli.col(point) = H.template topLeftCorner<block, block>().reshaped();
-    if constexpr (n == 4) {
-      result.beyond.col(point).template head<4>() = H.row(3).transpose();
-      result.beyond.col(point).template tail<3>() = H.col(3).template head<3>();
-    }
+    if constexpr (n == 4) result.beyond.col(point) << H.row(3).transpose(), H.col(3).template head<3>();
   }
 
   std::shared_ptr<const RateLaw> law_;

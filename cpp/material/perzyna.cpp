@@ -8,21 +8,12 @@ namespace mortier {
 
 template <size_t n>
 PerzynaLaw<n>::PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law)
-    : a_(a),
+    : ElasticLaw<n>(e),
+      a_(a),
       w_(w),
       law_(law),
       symmetric_(w[0] == w[1]),
-      domain_(law.yieldStress, a, {a[0] / w[0], a[1] / w[1]}) {
-  e_.fill(e[1]);
-  e_[0] = e[0];
-}
-
-template <size_t n>
-typename PerzynaLaw<n>::Stress PerzynaLaw<n>::rest(const PointStep<n>& point) const {
-  Stress v = point.strain;
-  for (size_t k = 0; k < n; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
-  return v;
-}
+      domain_(law.yieldStress, a, {a[0] / w[0], a[1] / w[1]}) {}
 
 // With v = strain - E^-1 (s - s0), theta = weight/(2 lambda) and t = s + c v, the law v = theta (s - P_B s)
 // reads
@@ -35,7 +26,7 @@ template <size_t n>
 PointAnswer<n> PerzynaLaw<n>::linearise(const PointStep<n>& point) const {
   constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
   const double theta = this->theta(point.weight);
-  const Stress v = rest(point);
+  const Stress v = this->flowStrain(point);
   Lanes c = 0;
   Stress t = point.stress;
   if (point.anticipate) {
@@ -84,7 +75,7 @@ PointAnswer<n> PerzynaLaw<n>::linearise(const PointStep<n>& point) const {
 template <size_t n>
 PointAnswer<n> PerzynaLaw<n>::regularise(const PointStep<n>& point, const Lanes& penalty) const {
   const double theta = this->theta(point.weight);
-  const Stress v = rest(point);
+  const Stress v = this->flowStrain(point);
   PointAnswer<n> answer;
   Stress A;
   Stress kappa;

@@ -30,12 +30,10 @@ LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& vis
 /// On n directions in which E, B and the norm are diagonal, all but the first alike: 3, or the 5 of a
 /// deviator in space.
 template <size_t n = 3>
-class PerzynaLaw {
+class PerzynaLaw : public ElasticLaw<n> {
  public:
-  static constexpr int components = n;
   using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
-  static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a, w  of the yield function and the norm [-]
   PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law);
@@ -49,20 +47,14 @@ class PerzynaLaw {
   }
   [[nodiscard]] Lanes penalty(const Stress& stress) const;
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const;
-  [[nodiscard]] Stress elasticStrain(Stress stress) const {
-    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
-    return stress;
-  }
   [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const;
   [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& penalty) const;
   [[nodiscard]] ConeLaw cone(double weight) const requires(n == 3);
 
  private:
   [[nodiscard]] double theta(double weight) const { return weight / (2 * law_.viscosity); }
-  /// strain - E^-1 (s - s0): what is left for the flow.
-  [[nodiscard]] Stress rest(const PointStep<n>& point) const;
 
-  std::array<double, n> e_;
+  using ElasticLaw<n>::e_;
   Pair a_;
   Pair w_;
   Viscoplasticity law_;

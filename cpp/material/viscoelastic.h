@@ -23,30 +23,24 @@ LawDescription describe(const Elasticity& elasticity, const Viscoelasticity& vis
 
 /// \tparam spring  whether g > 0  \tparam n  directions: 3, or the 5 of a deviator in space
 template <bool spring, size_t n = 3>
-class ViscoelasticLaw {
+class ViscoelasticLaw : public ElasticLaw<n> {
  public:
-  static constexpr int components = n;
   using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = spring;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param d  of the deviator [-]
   ViscoelasticLaw(const Pair& e, const Pair& d, const Viscoelasticity& law)
-      : tau_(law.relaxationTime), g_(law.relaxedFraction) {
-    e_.fill(e[1]);
-    e_[0] = e[0];
+      : ElasticLaw<n>(e), tau_(law.relaxationTime), g_(law.relaxedFraction) {
     for (size_t k = 0; k < n; ++k) alpha_[k] = (1 - g_) * d[k == 0 ? 0 : 1] / e[1] + g_ / e_[k];
   }
 
-  static bool symmetric() { return true; }
-  static double stressScale() { return 0; }
   [[nodiscard]] double stiffness(double weight) const { return weight / tau_; }
   /// A stress of zero may still move with the strain that is left.
   template <class Scalar>
   static bool flows(const std::array<Scalar, n>& /*stress*/) {
     return true;
   }
-  static Lanes penalty(const Stress& /*stress*/) { return 0; }
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
     Stress rate;
     for (size_t k = 0; k < n; ++k) {
@@ -54,10 +48,6 @@ class ViscoelasticLaw {
       if constexpr (spring) rate[k] -= g_ / tau_ * total[k];
     }
     return rate;
-  }
-  [[nodiscard]] Stress elasticStrain(Stress stress) const {
-    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
-    return stress;
   }
   [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const {
     Stress D;
@@ -70,11 +60,9 @@ class ViscoelasticLaw {
   /// With D = E.
   [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& /*penalty*/) const {
     Stress half;
-    Stress elastic;
-    for (size_t k = 0; k < n; ++k) elastic[k] = e_[k];
     for (size_t k = 0; k < n; ++k) half[k] = 1 / (2 / e_[k] + point.weight * alpha_[k] / tau_);
     PointAnswer<n> answer = towardsLaw(point, half);
-    answer.moduli = diagonalMinusRankOne<n>(elastic, 0, {}, {});
+    answer.moduli = this->moduli();
     return answer;
   }
 
@@ -82,16 +70,16 @@ class ViscoelasticLaw {
   /// The change D r of the stress.
   [[nodiscard]] PointAnswer<n> towardsLaw(const PointStep<n>& point, const Stress& D) const {
     const Stress flow = rate(point.stress, point.total);
+    const Stress v = this->flowStrain(point);
     PointAnswer<n> answer{point.stress, {}, {}, true};
     for (size_t k = 0; k < n; ++k) {
-      const Lanes elastic = (point.stress[k] - point.stress0[k]) / e_[k];
-      answer.change[k] = D[k] * (point.strain[k] - elastic - point.weight * flow[k]);
+      answer.change[k] = D[k] * (v[k] - point.weight * flow[k]);
       answer.predictor[k] += answer.change[k];
     }
     return answer;
   }
 
-  std::array<double, n> e_;
+  using ElasticLaw<n>::e_;
   double tau_;
   double g_;
   std::array<double, n> alpha_;

@@ -1,10 +1,10 @@
 #include "mesh/boundary_line.h"
 
 #include <algorithm>
-#include <sstream>
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
@@ -15,9 +15,7 @@ namespace {
 }
 
 std::string describeVertex(const TriangleMesh& mesh, int v) {
-  std::ostringstream out;
-  out << "vertex " << v + 1 << " at (" << mesh.vertices[v].x() << ", " << mesh.vertices[v].y() << ')';
-  return out.str();
+  return formatted("vertex %d at (%g, %g)", v + 1, mesh.vertices[v].x(), mesh.vertices[v].y());
 }
 
 [[noreturn]] void failMissing(const TriangleMesh& mesh, int label) {

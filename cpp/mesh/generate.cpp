@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace mortier {
 namespace {
 
 std::string text(const Point& p) {
-  std::ostringstream out;
-  out << '(' << p.x() << ", " << p.y() << ')';
-  return out.str();
+  return formatted("(%g, %g)", p.x(), p.y());
 }
 
 std::string describe(const std::string& kind, const Rectangle& r) {
-  std::ostringstream out;
-  out << kind << ' ' << r.cellsX << 'x' << r.cellsY << " of " << text(r.lower) << " to " << text(r.upper);
-  return out.str();
+  return kind + formatted(" %dx%d of ", r.cellsX, r.cellsY) + text(r.lower) + " to " + text(r.upper);
 }
 
 TriangleMesh rectangle(const Rectangle& r, Cut cut, const std::string& name) {
@@ -71,14 +67,13 @@ TriangleMesh quadrilateralMesh(const Quadrilateral& q, Cut cut) {
 }
 
 TriangleMesh annulusMesh(const Annulus& a, Cut cut) {
-  std::ostringstream name;
-  name << "annulus of radii " << a.inner << " and " << a.outer << " about " << text(a.centre);
+  const std::string name = formatted("annulus of radii %g and %g about ", a.inner, a.outer) + text(a.centre);
   if (!(a.inner > 0 && a.outer > a.inner && std::isfinite(a.outer) && a.centre.allFinite()))
-    throw InputError(name.str() + ", expected finite numbers with 0 < inner < outer");
+    throw InputError(name + ", expected finite numbers with 0 < inner < outer");
   if (a.quarters != 1 && a.quarters != 2 && a.quarters != 4)
-    throw InputError(name.str() + ": " + std::to_string(a.quarters) + " quarters, expected 1, 2 or 4");
+    throw InputError(name + ": " + std::to_string(a.quarters) + " quarters, expected 1, 2 or 4");
   if (a.quarters == 4 && a.cellsAround < 3)
-    throw InputError(name.str() + ": cell counts, expected 3 or more around");
+    throw InputError(name + ": cell counts, expected 3 or more around");
   const bool closed = a.quarters == 4;
   // From the end of the sector to its beginning and outwards, so that cells are counterclockwise.
   const auto at = [&](int i, int j) -> Point {
@@ -91,7 +86,7 @@ TriangleMesh annulusMesh(const Annulus& a, Cut cut) {
     if (static_cast<long long>(k) * a.quarters % a.cellsAround == 0) direction = direction.array().round();
     return a.centre + r * direction;
   };
-  return gridMesh({a.cellsAround, a.cellsAcross, at, closed, {1, 3, 2, 4}}, cut, name.str());
+  return gridMesh({a.cellsAround, a.cellsAcross, at, closed, {1, 3, 2, 4}}, cut, name);
 }
 
 namespace {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
+#include "base/digits.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/generate.h"
 
 namespace mortier {
@@ -93,22 +94,20 @@ TriangleMesh rightOf(double x, const TriangleMesh& whole) {
 }  // namespace
 
 TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
-  std::ostringstream name;
-  name << "half disc of radius " << disc.radius << " on (" << disc.lowest.x() << ", " << disc.lowest.y()
-       << ")";
+  const std::string name =
+      formatted("half disc of radius %g on (%g, %g)", disc.radius, disc.lowest.x(), disc.lowest.y());
   if (!(disc.radius > 0 && std::isfinite(disc.radius) && disc.lowest.allFinite()))
-    throw InputError(name.str() + ", expected finite numbers and a radius > 0");
-  if (!(disc.core > 0 && 3 * disc.core < disc.radius)) {
-    name << ": core " << disc.core << ", expected more than 0 and less than a third of the radius";
-    throw InputError(name.str());
-  }
-  checkCells(name.str(), disc.cells, disc.cells, cut);
+    throw InputError(name + ", expected finite numbers and a radius > 0");
+  if (!(disc.core > 0 && 3 * disc.core < disc.radius))
+    throw InputError(name + ": core " + digits(disc.core, 6) +
+                     ", expected more than 0 and less than a third of the radius");
+  checkCells(name, disc.cells, disc.cells, cut);
   const HalfDiscGrid grid{disc.cells, disc.core / disc.radius};
   const int m = grid.m;
   // Rings so that cells are about as long as wide: sizes grow with the distance from the lowest point.
   const double growth = std::log(0.9 / grid.core);
   const int rings = std::max(1, static_cast<int>(std::lround(growth * 4 * m / pi)));
-  checkCells(name.str(), 4.0 * m, rings + m, cut);
+  checkCells(name, 4.0 * m, rings + m, cut);
 
   // 1. Nodes.
   TriangleMesh mesh;
@@ -150,8 +149,8 @@ TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
   for (int r = 0; r < rings; ++r)
     for (int k = 0; k < 4 * m; ++k)
       addCell(mesh, {ringNode(r, k), ringNode(r, k + 1), ringNode(r + 1, k + 1), ringNode(r + 1, k)}, around);
-  mesh = finished(std::move(mesh), name.str());
-  return disc.quarter ? finished(rightOf(disc.lowest.x(), mesh), "quarter of a " + name.str()) : mesh;
+  mesh = finished(std::move(mesh), name);
+  return disc.quarter ? finished(rightOf(disc.lowest.x(), mesh), "quarter of a " + name) : mesh;
 }
 
 }  // namespace mortier

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "base/digits.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/box_of.h"
 #include "mesh/triangle_sides.h"
 
@@ -168,11 +168,9 @@ class Validator {
           ++other;
         const Point& a = mesh_.vertices[edge[0]];
         const Point& b = mesh_.vertices[edge[1]];
-        std::ostringstream text;
-        text << " from (" << a.x() << ", " << a.y() << ") to (" << b.x() << ", " << b.y()
-             << ") is labelled twice, " << mesh_.boundaryLabels[other] << " and " << mesh_.boundaryLabels[e]
-             << ", expected once";
-        failHere(text.str(), "label-twice");
+        failHere(formatted(" from (%g, %g) to (%g, %g) is labelled twice, %d and %d, expected once", a.x(),
+                           a.y(), b.x(), b.y(), mesh_.boundaryLabels[other], mesh_.boundaryLabels[e]),
+                 "label-twice");
       }
       const auto& v = mesh_.triangles[side.triangle()];
       const std::array<int, 2> turned{v[side.corner()], v[(side.corner() + 1) % 3]};
@@ -216,10 +214,8 @@ TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
     double& radius = mesh.vertices[v].x();
     if (std::abs(radius) <= rounding * largest) radius = 0;
     if (radius >= 0) continue;
-    std::ostringstream message;
-    message << mesh.name << ": vertex " << v + 1 << " at x = " << radius << ", expected x >= 0 beside "
-            << beside << ": x is the distance from the axis";
-    throw InputError(message.str());
+    throw InputError(mesh.name + ": vertex " + std::to_string(v + 1) + " at x = " + digits(radius, 6) +
+                     ", expected x >= 0 beside " + beside + ": x is the distance from the axis");
   }
   for (Point& middle : mesh.edgeMiddles)
     if (std::abs(middle.x()) <= rounding * largest) middle.x() = 0;

@@ -101,12 +101,11 @@ void ContactDofs::takeRows(const Model& model, int body, const std::vector<int>&
   int conditions = firstRow.back();
   for (const ContactInterface& interface : model.interfaces)
     conditions += interface.hasFriction() ? interface.rows() : 0;
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   forEachEquation(model, body, firstRow, [&](int row, int equation, double value) {
     entries.emplace_back(row, column_[equation], value);
   });
-  C.resize(conditions, static_cast<Eigen::Index>(equations.size()));
-  C.setFromTriplets(entries.begin(), entries.end());
+  C = assembled(conditions, static_cast<Eigen::Index>(equations.size()), entries);
 }
 
 void ContactDofs::findMotions(const Model& model, int body) {

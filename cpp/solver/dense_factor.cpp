@@ -1,6 +1,7 @@
 #include "solver/dense_factor.h"
 
 #include "base/parallel.h"
+#include "linear/blas.h"
 #include "linear/dense_kernels.h"
 
 extern "C" {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "base/digits.h"
@@ -35,11 +34,10 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     if (outcome.iterations == limits.iterations + corrections || !std::isfinite(residual) ||
         (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
-      std::ostringstream text;
-      text << "Newton's method did not converge in " << counted(outcome.iterations, "iteration")
-           << ", material residual " << residual;
-      if (residual <= limits.tolerance) text << ", force balance " << balance;
-      outcome.fail(Reason::unconverged, text.str());
+      std::string text = "Newton's method did not converge in " + counted(outcome.iterations, "iteration") +
+                         ", material residual " + digits(residual, 6);
+      if (residual <= limits.tolerance) text += ", force balance " + digits(balance, 6);
+      outcome.fail(Reason::unconverged, text);
       return outcome;
     }
     ++outcome.iterations;

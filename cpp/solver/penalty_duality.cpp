@@ -17,10 +17,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "base/dense_templates.h"
 #include "base/digits.h"
+#include "base/formatted.h"
 #include "base/worst.h"
 #include "solver/methods.h"
 
@@ -166,11 +166,12 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
       system.linearise(step, iterate, regularised);
     }
     if (outcome.iterations == options.maxIterations || !std::isfinite(change + contactChange)) {
-      std::ostringstream text;
-      text << "the penalty-duality method did not converge in " << counted(outcome.iterations, "iteration")
-           << ": stresses change by " << change << " yield stresses, contact forces by " << contactChange
-           << "; solver.method = \"newton\" solves more";
-      outcome.fail(Reason::unconverged, text.str());
+      outcome.fail(Reason::unconverged,
+                   "the penalty-duality method did not converge in " +
+                       counted(outcome.iterations, "iteration") +
+                       formatted(": stresses change by %g yield stresses, contact forces "
+                                 "by %g; solver.method = \"newton\" solves more",
+                                 change, contactChange));
       return outcome;
     }
 

@@ -17,8 +17,7 @@ constexpr double penaltyRatio = 1e4;
 constexpr double roundingOfRows = 1e-14;
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<double, Eigen::RowMajor>& A) {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> result(A.rows(), A.cols());
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
   for (int i = 0; i < A.outerSize(); ++i) {
     double largest = 0;
@@ -27,8 +26,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<do
       if (std::abs(a.value()) > roundingOfRows * largest)
         entries.emplace_back(i, static_cast<int>(a.col()), a.value());
   }
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return assembled<Eigen::SparseMatrix<double, Eigen::RowMajor>>(A.rows(), A.cols(), entries);
 }
 
 }  // namespace
@@ -50,40 +48,37 @@ SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody
 void SparseContact::findRows(const Model& model, const std::vector<CondensedBody>& bodies,
                              const std::vector<int>& firstRow) {
   const int conditions = firstRow.back();
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (size_t b = 0; b < bodies.size(); ++b) {
     const ContactDofs& dofs = bodies[b].contact();
-    for (int j = 0; j < dofs.C.outerSize(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator c(dofs.C, j); c; ++c)
-        entries.emplace_back(static_cast<int>(c.row()), first_[b] + dofs.equations[j], c.value());
+    forEachEntry(dofs.C, [&](int row, int column, double value) {
+      entries.emplace_back(row, first_[b] + dofs.equations[column], value);
+    });
   }
-  C_.resize(conditions, first_.back());
-  C_.setFromTriplets(entries.begin(), entries.end());
+  C_ = assembled<Rows>(conditions, first_.back(), entries);
   entries.clear();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const bool local = interface.pair().coupling != CouplingKind::mortar;
     const Vector length = interface.mass() * Vector::Ones(interface.rows());
-    for (int j = 0; j < interface.mass().outerSize(); ++j) {
-      if (local) entries.emplace_back(firstRow[k] + j, firstRow[k] + j, 1);
-      for (Eigen::SparseMatrix<double>::InnerIterator m(interface.mass(), j); m && !local; ++m)
-        entries.emplace_back(firstRow[k] + static_cast<int>(m.row()), firstRow[k] + j,
-                             m.value() / length[m.row()]);
-    }
+    for (int j = 0; j < interface.rows() && local; ++j)
+      entries.emplace_back(firstRow[k] + j, firstRow[k] + j, 1);
+    if (local) continue;
+    forEachEntry(interface.mass(), [&](int row, int column, double value) {
+      entries.emplace_back(firstRow[k] + row, firstRow[k] + column, value / length[row]);
+    });
   }
-  T_.resize(conditions, conditions);
-  T_.setFromTriplets(entries.begin(), entries.end());
+  T_ = assembled<Rows>(conditions, conditions, entries);
   entries.clear();
   const Rows B = pruned(T_ * C_);
   const auto add = [&](const Rows& A, int offset, double sign) {
-    for (int i = 0; i < A.outerSize(); ++i)
-      for (Rows::InnerIterator a(A, i); a; ++a)
-        entries.emplace_back(i, offset + static_cast<int>(a.col()), sign * a.value());
+    forEachEntry(A, [&](int row, int column, double value) {
+      entries.emplace_back(row, offset + column, sign * value);
+    });
   };
   add(B, 0, 1);
   add(T_, first_.back(), -1);
-  E_.resize(conditions, first_.back() + conditions);
-  E_.setFromTriplets(entries.begin(), entries.end());
+  E_ = assembled<Rows>(conditions, first_.back() + conditions, entries);
 }
 
 void SparseContact::findSprings(const Model& model, const std::vector<CondensedBody>& bodies) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/ranks.h"
 
 namespace mortier {
@@ -43,11 +43,9 @@ double Controller::worst() const {
 std::string Controller::shortfall() const {
   if (worst() <= plan_.tolerance) return "";
   const ControllerMemory& own = memory_.controller;
-  std::ostringstream text;
-  text << std::setprecision(2) << "estimated error " << worst() << " above tolerance " << plan_.tolerance
-       << " after " << own.trial << (own.trial == 1 ? " trial" : " trials");
-  if (own.shortestInaccurate) text << ": the shortest step that doubles resolve is not accurate enough";
-  return text.str();
+  return "estimated error " + digits(worst()) + " above tolerance " + digits(plan_.tolerance) + " after " +
+         counted(own.trial, "trial") +
+         (own.shortestInaccurate ? ": the shortest step that doubles resolve is not accurate enough" : "");
 }
 
 void Controller::pilot(StepTaker& taker, State& state) {
@@ -259,10 +257,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
   ControllerMemory& own = memory_.controller;
   const double flowing = taker.flowing();
   const auto giveUp = [&](Status status, double t1, const std::string& why) {
-    std::ostringstream reason;
-    reason << "step " << report.step << " at t = " << t1 << ": " << why;
     report.status = status;
-    report.reason = reason.str();
+    report.reason = formatted("step %d at t = %g: ", report.step, t1) + why;
   };
   while (true) {
     const bool second = inPair(state.time);

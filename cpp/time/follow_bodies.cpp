@@ -7,10 +7,10 @@
 // first geometry is that of the guess.
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "base/dense_templates.h"
+#include "base/formatted.h"
 #include "fem/rigid_modes.h"
 #include "time/measure.h"
 #include "time/step_taker.h"
@@ -118,11 +118,11 @@ StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Eff
     return total;
   }
   if (!total.converged()) return total;
-  std::ostringstream text;
-  text << "contact does not settle where the bodies are in " << most
-       << " repetitions: the last one is off by " << off << " of the largest contact force";
-  if (system_.contactHolds()) text << whatTips(model_, before, now);
-  total.fail(Reason::unconverged, text.str());
+  total.fail(Reason::unconverged,
+             formatted("contact does not settle where the bodies are in %d repetitions: the last one is off "
+                       "by %g of the largest contact force",
+                       most, off) +
+                 (system_.contactHolds() ? whatTips(model_, before, now) : ""));
   return total;
 }
 

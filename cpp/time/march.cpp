@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/ranks.h"
 #include "time/controller.h"
 #include "time/initial_balance.h"
@@ -42,9 +43,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     // A body may be unheld where contact would be after too large a step only.
     if ((outcome.unheld() && !taker.follows()) || parts == smallest) {
       report.status = outcome.unheld() ? Status::unheld : Status::failed;
-      std::ostringstream reason;
-      reason << "step " << report.step << " at t = " << time << ": " << outcome.detail;
-      report.reason = reason.str();
+      report.reason = formatted("step %d at t = %g: ", report.step, time) + outcome.detail;
       return;
     }
     parts *= 2;
@@ -89,12 +88,12 @@ void raiseDeformation(const Model& model, const State& state, Peaks& peaks) {
 /// A possible cause of a failed step: strains and rotations beyond the limits of linear kinematics, as of a
 /// block that tips. Empty where all are small.
 std::string beyondSmall(const Peaks& peaks) {
-  std::ostringstream text;
-  text.precision(2);
+  std::string text;
   if (peaks.rotation.value > smallRotation)
-    text << "; bodies have turned by " << peaks.rotation.value * 180 / M_PI << " degrees";
-  if (peaks.strain.value > smallStrain) text << "; strains have reached " << 100 * peaks.strain.value << " %";
-  return text.str().empty() ? "" : text.str() + ", taken as small";
+    text += "; bodies have turned by " + digits(peaks.rotation.value * 180 / M_PI) + " degrees";
+  if (peaks.strain.value > smallStrain)
+    text += "; strains have reached " + digits(100 * peaks.strain.value) + " %";
+  return text.empty() ? "" : text + ", taken as small";
 }
 
 /// Why the run cannot go on where a node has slid past the end of the line that it touches; empty where none
@@ -110,13 +109,13 @@ std::string followSliding(const Model& model, const State& state, const TimePlan
     const ContactPair& pair = model.interfaces[k].pair();
     const Body& body = model.bodies[pair.nonmortar.body];
     const Point& at = body.elementNodes().places[sliding.past];
-    std::ostringstream reason;
-    reason << "step " << run.steps << " at t = " << state.time << ": contact of label "
-           << pair.nonmortar.label << " of body " << body.name() << ": the node at (" << at.x() << ", "
-           << at.y() << ") slides by " << sliding.pastBy << ", past the end of label " << pair.mortar.label
-           << " of body " << model.bodies[pair.mortar.body].name()
-           << ", and would go on to touch it: slips are taken as small (contact.sliding = \"allow\" goes on)";
-    why = reason.str();
+    why = formatted("step %d at t = %g: contact of label %d of body ", run.steps, state.time,
+                    pair.nonmortar.label) +
+          body.name() +
+          formatted(": the node at (%g, %g) slides by %g, past the end of label %d of body ", at.x(), at.y(),
+                    sliding.pastBy, pair.mortar.label) +
+          model.bodies[pair.mortar.body].name() +
+          ", and would go on to touch it: slips are taken as small (contact.sliding = \"allow\" goes on)";
   }
   return why;
 }
@@ -211,9 +210,7 @@ StepReport jump(const Model& model, const State& state, MarchMemory& memory, Ste
       report.certificate = outcome.certificate;
       if (outcome.converged()) return;
       report.status = outcome.unheld() ? Status::unheld : Status::failed;
-      std::ostringstream reason;
-      reason << "at t = " << state.time << ": " << outcome.detail;
-      report.reason = reason.str();
+      report.reason = formatted("at t = %g: ", state.time) + outcome.detail;
     });
   } catch (const DatumError& error) {
     report.status = Status::failed;

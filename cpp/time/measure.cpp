@@ -154,9 +154,7 @@ SpacePoint resultant(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   SpacePoint sum = SpacePoint::Zero();
   const auto subtract = [&](const ConstraintRows& rows, const Vector& by) {
-    for (int row = 0; row < rows.rows(); ++row)
-      for (ConstraintRows::InnerIterator entry(rows, row); entry; ++entry)
-        sum[entry.col() % of.dimension()] -= entry.value() * by[row];
+    forEachEntry(rows, [&](int row, int dof, double value) { sum[dof % of.dimension()] -= value * by[row]; });
   };
   subtract(of.C1(), state.contactForce[interface]);
   if (of.hasFriction()) subtract(of.T1(), state.frictionForce[interface]);

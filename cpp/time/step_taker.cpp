@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
+#include "base/formatted.h"
 #include "base/parallel.h"
 #include "material/stress.h"
 #include "solver/state.h"
@@ -88,11 +88,7 @@ std::string beyond(const Certificate& found, double most) {
       {"gap on active contact", found.gapOnActive}, {"negative contact force", found.sign},
       {"complementarity", found.complementarity},   {"friction", found.friction}};
   for (const auto& [name, value] : residuals)
-    if (!(value <= most)) {
-      std::ostringstream text;
-      text << name << " of the solution " << value << ", expected at most " << most;
-      return text.str();
-    }
+    if (!(value <= most)) return formatted("%s of the solution %g, expected at most %g", name, value, most);
   return "";
 }
 
@@ -174,11 +170,10 @@ std::string StepTaker::stressAt(const StuckPlace& place) const {
     }
   }
   model_.sum(s.data(), s.size());
-  std::ostringstream text;
-  text << ", at the stress s11 = " << s[0] << ", s22 = " << s[1] << ", s12 = " << s[2];
-  if (stress.rows() > 3) text << ", s33 = " << s[3];
-  if (body.dimension() == 3) text << ", s13 = " << s[4] << ", s23 = " << s[5];
-  return text.str();
+  std::string text = formatted(", at the stress s11 = %g, s22 = %g, s12 = %g", s[0], s[1], s[2]);
+  if (stress.rows() > 3) text += formatted(", s33 = %g", s[3]);
+  if (body.dimension() == 3) text += formatted(", s13 = %g, s23 = %g", s[4], s[5]);
+  return text;
 }
 
 /// sum_{j<i} a_ij k G_j
