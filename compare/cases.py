@@ -250,7 +250,7 @@ def scene_cases():
                    "body.upper.force.y=-3*sin(x)*t")),
         SceneCase("sloped", "interpolation", "Norton creep", (*NORTON, "time.steps=3")),
         SceneCase("turned", "mortar", "Norton creep, plane strain", (*NORTON, 'plane="strain"')),
-        SceneCase("sloped", "mortar", "a law of one's own", (*SINH, "time.steps=3")),
+        SceneCase("sloped", "mortar", "a user-defined law", (*SINH, "time.steps=3")),
         SceneCase("turned", "interpolation", "a user law of the strain", (*SPRUNG, "time.steps=2")),
         SceneCase("sloped", "mortar", "held at points that carry nothing", FREE_BUT_FOR_POINTS),
         SceneCase("stack", "interpolation", "held at points that push", POINTS_THAT_PUSH),

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     startRanks(argc, argv);
     const int code = dispatch(argc, argv);
     finishStandardOutput();
-    static_cast<void>(Ranks::all().end(code));  // it has told why
+    static_cast<void>(Ranks::all().end(code));  // it has reported why
     Ranks::all().leave();
     return code;
   } catch (const InputError& error) {

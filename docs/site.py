@@ -31,8 +31,9 @@ NAVIGATION = {
     "Begin": ["README.md", "docs/tutorial.md", "docs/gallery.md"],
     "Use": ["docs/scene.md", "docs/check.md", "docs/pictures.md", "docs/study.md", "docs/compare.md",
             "docs/python.md", "docs/scaling.md"],
-    "Understand": ["docs/theory.md", "docs/bounds.md", "docs/measurements.md", "docs/decisions.md",
-                   "docs/glossary.md", "docs/benchmarks.md", "docs/published.md"],
+    "Understand": ["docs/theory.md", "docs/sliding.md", "docs/space.md", "docs/bounds.md",
+                   "docs/measurements.md", "docs/decisions.md", "docs/glossary.md", "docs/benchmarks.md",
+                   "docs/published.md"],
     "Take part": ["CONTRIBUTING.md", "freefem/README.md", "shared-meshes/README.md", "CHANGELOG.md"],
 }
 

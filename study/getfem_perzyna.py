@@ -20,7 +20,7 @@ TOLERANCE = 1e-9  # |H^-1 r| over the yield stress
 PLAIN, STAGE, LAST = 8, 40, 60  # iterations
 ROUGH = 0.3  # tolerance of a stage
 BALANCE, GAP = 1e-9, 1e-15  # what GetFEM's solver is asked: forces, and gaps over the displacement
-ROUNDING = 1e-15  # of the scaled strain, what is left of H^-1 r
+ROUNDING = 1e-15  # of the scaled strain: the least H^-1 r
 STRAIN = "[(Grad_{0}(1,1)+Grad_{0}(2,2));(Grad_{0}(1,1)-Grad_{0}(2,2));(Grad_{0}(1,2)+Grad_{0}(2,1))]/sqrt(2)"
 
 

@@ -62,24 +62,24 @@ std::vector<BoundaryLine> linesOf(const TriangleMesh& mesh, const std::vector<st
   };
   for (const auto& [v, passed] : passes)
     while (passed == 0 && !at[v].next.empty()) follow(v);
-  for (const auto& [v, passed] : passes)  // what is left is closed
+  for (const auto& [v, passed] : passes)  // the others are closed
     if (!at[v].next.empty()) follow(v);
   return lines;
 }
 
-/// Of the edges of which the mesh tells a third point: the curvature of the arc through the three.
-std::map<std::array<int, 2>, double> toldByMesh(const TriangleMesh& mesh) {
+/// Of the edges of which the mesh has a third point: the curvature of the arc through the three.
+std::map<std::array<int, 2>, double> ofThreePoints(const TriangleMesh& mesh) {
   constexpr double straight = 1e-9;
-  std::map<std::array<int, 2>, double> told;
+  std::map<std::array<int, 2>, double> curvatures;
   for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e) {
     if (!mesh.edgeMiddles[e].allFinite()) continue;
     const auto& [a, b] = mesh.boundaryEdges[e];
     const Point& from = mesh.vertices[a];
     const Point& to = mesh.vertices[b];
     const double curvature = arcsOf({from, to}, false, {mesh.edgeMiddles[e]}).front().curvature;
-    told[{a, b}] = std::abs(curvature) * (to - from).norm() > straight ? curvature : 0;
+    curvatures[{a, b}] = std::abs(curvature) * (to - from).norm() > straight ? curvature : 0;
   }
-  return told;
+  return curvatures;
 }
 
 std::string nameOf(int label) {
@@ -94,7 +94,7 @@ KnownCurves curvesBehind(const TriangleMesh& mesh) {
   KnownCurves known;
   std::map<int, std::vector<std::array<int, 2>>> edges;
   for (const auto& [edge, label] : edgesToFollow(mesh)) edges[label].push_back(edge);
-  const auto told = toldByMesh(mesh);
+  const auto curvatures = ofThreePoints(mesh);
   std::set<std::array<int, 2>> own;
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
     if (mesh.hasCurve(e)) own.insert(mesh.boundaryEdges[e]);
@@ -105,8 +105,8 @@ KnownCurves curvesBehind(const TriangleMesh& mesh) {
         for (int e = 0; e < part.elements(); ++e) {
           const std::array<int, 2> edge{part.nodes[e], part.nodes[e + 1]};
           if (own.count(edge) > 0) continue;
-          const auto found = told.find(edge);
-          const Arc arc = found != told.end() ? Arc{found->second, true} : part.arcs[e];
+          const auto found = curvatures.find(edge);
+          const Arc arc = found != curvatures.end() ? Arc{found->second, true} : part.arcs[e];
           if (arc.known && arc.curvature != 0) known.edges[edge] = arc.curvature;
           polygon = polygon || !arc.known;
         }

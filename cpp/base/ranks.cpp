@@ -28,11 +28,11 @@ std::string textOfAny(Ranks& ranks, const std::string& text) {
   double first = text.empty() ? 0 : ranks.count() - ranks.rank();
   const double own = first;
   ranks.largest(&first, 1);
-  const bool tells = own > 0 && own == first;
-  auto size = static_cast<double>(tells ? text.size() : 0);
+  const bool reports = own > 0 && own == first;
+  auto size = static_cast<double>(reports ? text.size() : 0);
   ranks.sum(&size, 1);
   std::vector<double> letters(static_cast<size_t>(size));
-  if (tells) std::copy(text.begin(), text.end(), letters.begin());
+  if (reports) std::copy(text.begin(), text.end(), letters.begin());
   ranks.sum(letters.data(), letters.size());
   std::string result;
   for (const double letter : letters) result += static_cast<char>(letter);

@@ -14,10 +14,10 @@
 
 namespace mortier {
 
-/// Thrown where another rank has told of a fault of its data (Ranks::tellFault).
+/// Thrown where another rank has reported a fault of its data (Ranks::reportFault).
 class PeerFault : public std::exception {};
 
-/// Thrown where another rank has ended: it has told why.
+/// Thrown where another rank has ended: it has reported why.
 class PeerEnded : public std::runtime_error {
  public:
   explicit PeerEnded(int code) : std::runtime_error("another rank ended"), code_(code) {}
@@ -54,9 +54,9 @@ class Ranks {
   virtual void gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all);
   /// Where the data of this rank have a fault: the others throw PeerFault in the function that they have come
   /// to.
-  virtual void tellFault() {}
+  virtual void reportFault() {}
 
-  /// To be called once, with the exit code, when the work is over. \returns whether this rank is to tell why.
+  /// To be called once, with the exit code, when the work is over. \returns whether this rank reports why.
   [[nodiscard]] virtual bool end(int /*code*/) { return true; }
   /// Lets all ranks throw Interrupted when they next meet; for signal handlers. \returns false where there is
   /// one rank, which stops by itself (base/interrupt.h).
@@ -68,7 +68,7 @@ class Ranks {
   virtual void releaseFreeMemory() {}
   /// Values that were sent and received so far [bytes].
   [[nodiscard]] virtual double traffic() const { return 0; }
-  /// After end(), when what there was to tell is told: mpirun ends the others when one that failed is gone.
+  /// After end(), when all is reported: mpirun ends the others when one that failed is gone.
   virtual void leave() {}
 
  private:
@@ -111,7 +111,7 @@ void withSharedFaults(Ranks& ranks, const Work& work) {
     return;
   } catch (const DatumError& error) {
     fault = error.what();
-    ranks.tellFault();
+    ranks.reportFault();
   } catch (const PeerFault&) {
   }
   throw DatumError(textOfAny(ranks, fault));

@@ -25,7 +25,7 @@ class FlowPotential {
 
   /// 1/(2 lambda) by triangles, 0 where nothing flows [1/(Pa s)]
   [[nodiscard]] const Vector& fluidity() const { return fluidity_; }
-  /// So many triangles from one on, of which rates() can tell at once.
+  /// So many triangles from one on, that rates() handles at once.
   [[nodiscard]] int together(int first) const;
   /// G of stresses at the triangles from one on (components x triangles), no more than together() [1/s].
   Matrix rates(int first, const Matrix& stress);

@@ -34,7 +34,7 @@ PointMatrix identity(Eigen::Index n) {
   return PointMatrix::Identity(n, n);
 }
 
-/// Calls add(first, count) for groups of triangles of which a potential can tell at once. \throws Interrupted
+/// Calls add(first, count) for groups of triangles that a potential handles at once. \throws Interrupted
 template <class Add>
 void forGroups(const FlowPotential& potential, int triangles, const Add& add) {
   for (int first = 0; first < triangles;) {

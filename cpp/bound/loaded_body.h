@@ -82,7 +82,7 @@ class LoadedBody {
   /// What linear data leave. Supports along the normals or tangents of a curve (`curvedSupport`) are not
   /// those of nodes.
   [[nodiscard]] const BodyData& data() const { return data_; }
-  /// Adds a displacement on a side between two vertices (unresolved_data.h), or only tells its energy norm.
+  /// Adds a displacement on a side between two vertices (unresolved_data.h), or returns its energy norm only.
   void move(const std::array<int, 2>& vertices, const Point& along, const SideDatum& datum);
   [[nodiscard]] double movedEnergy(const std::array<int, 2>& vertices, const Point& along,
                                    const SideDatum& datum) const;

@@ -312,7 +312,7 @@ class Enclosing {
   GluedBodies glued_;
   double Q_ = 0;
   double triangles_ = 0;
-  double unbalanced_ = 0;                       ///< what is left over in a triangle of s^ [N/m]
+  double unbalanced_ = 0;                       ///< the imbalance of s^ in a triangle [N/m]
   double moved_ = 0;                            ///< largest |u^| [m]
   std::vector<std::vector<Stress>> lifted_;     ///< s(u^) by bodies and triangles
   std::vector<std::vector<Moments>> sizes_;     ///< rounding of what follows: thin triangles cancel in it

@@ -7,7 +7,7 @@ namespace mortier {
 namespace {
 
 constexpr double fit = 1e-6;
-/// Nodes of the shortest run that tells more than that three points lie on a circle.
+/// Nodes of the shortest run that shows more than that three points lie on a circle.
 constexpr int fewest = 4;
 
 /// Of the circle through three points, in their order.

@@ -27,8 +27,8 @@
 //
 // Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
 // elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
-// side ends inside the element, or the other vertex is merged into it), its chi goes on as 1: constants are
-// still reproduced, and Phi stays well conditioned however small the piece.
+// side ends inside the element, or the other vertex is merged into it), its chi is extended by 1: constants
+// are still reproduced, and Phi stays well conditioned however small the piece.
 //
 // The projection is taken of the difference from the motion of the row's own node along its own n_i,
 //

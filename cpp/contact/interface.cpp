@@ -15,7 +15,7 @@ namespace {
 
 /// Bodies whose distance is below this part of the shorter line touch.
 constexpr double touching = 1e-12;
-/// The same where the user wants to be told if they do not; coordinates may have nine digits.
+/// The same where the scene rejects bodies that do not; coordinates may have nine digits.
 constexpr double touchingInFile = 1e-9;
 /// The largest penetration as meshed, as a part of the shorter line: far above that of two meshes of one
 /// curve, far below that of bodies in the wrong place.

@@ -1,8 +1,8 @@
 // The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
 // refinement. Between its points the jump of linear traces is taken as linear (of curves in two halves), that
 // of quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is
-// straight. And the squares of the jump, element by element, by which an estimate of the error tells what
-// contact leaves between the nodes.
+// straight. And the squares of the jump, element by element, from which the error between the nodes of
+// contact is estimated.
 #pragma once
 
 #include <array>

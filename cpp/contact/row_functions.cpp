@@ -15,7 +15,7 @@ Trace nodesAlong(const ElementLine& line) {
   return nodes;
 }
 
-/// Takes from the vertices `first` to `last` of a part those that the mortar trace does not tell apart.
+/// Takes from the vertices `first` to `last` of a part those that are one to the mortar trace.
 /// \param stiffness  of the nonmortar over that of the mortar body
 std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size_t first, size_t last,
                           double stiffness) {

@@ -33,7 +33,7 @@ namespace mortier {
 //
 // Elements whose nodes lie with their neighbours on one circle, or on one straight line, to 1e-6 of the
 // length of that run (or of the radius) stand for its arc. A run has four nodes at least: three lie on a
-// circle always. Where the mesh tells a third point of the curve behind another element, that stands for the
+// circle always. Where the mesh has a third point of the curve behind another element, that stands for the
 // arc through the three. Where the mesh has the curve itself (Gmsh's that are no circles), the element stands
 // for that. The curve behind the rest is not known.
 

@@ -145,7 +145,7 @@ Matrix rigidModes(const Body& body) {
         for (const int v : components.vertices[group[k]])
           mode.segment<2>(2 * v) = components.frames[group[k]].motionsAt(body.elementNodes().places[v]) *
                                    motions.col(i).segment<3>(3 * static_cast<Eigen::Index>(k));
-      free.push_back(body.spread(body.gather(mode)));  // what is left along prescribed motions is rounding
+      free.push_back(body.spread(body.gather(mode)));  // along prescribed motions there is rounding
     }
     if (free.size() > most)
       throw UnheldBodyError("body " + body.name() + ": nothing holds its " +

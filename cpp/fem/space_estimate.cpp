@@ -154,7 +154,7 @@ class SpaceRecovery {
       values.row(i) = weight * stress_.col(each * elements[i / each] + i % each).template head<6>();
     }
     Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-    constexpr double dependent = 1e-2;  // what few points hardly tell is left out, a constant is kept
+    constexpr double dependent = 1e-2;  // nearly dependent terms are left out, a constant is kept
     solver.setThreshold(dependent);
     solver.compute(design);
     fit.coefficients = solver.solve(values).transpose();

@@ -139,7 +139,7 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
       if (conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge]))
         for (const int node : nodes.boundary[e].nodes) directions.push_back(upwards(directionAt(c, e, node)));
   std::sort(directions.begin(), directions.end(), isBefore);
-  // Axes first: a normal that is one of them up to rounding gives way.
+  // Axes first: a normal that is one of them up to rounding is left out.
   for (const bool turned : {false, true})
     for (size_t c = 0; c < conditions.size(); ++c) {
       const int component = conditions[c].component;

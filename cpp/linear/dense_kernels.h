@@ -18,12 +18,12 @@ template <class Real>
 bool partialCholesky(Real* panel, int n, int pivots, std::type_identity_t<Real>* update, Threads& threads);
 
 /// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12;
-/// the rows of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the
+/// the rows of the pivot block are interchanged by `interchange` (from 0). \returns false when the
 /// pivot block is singular.
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange,
                Threads& threads);
 
-/// Interchanges the first n entries of x as partialLU told.
+/// Interchanges the first n entries of x as partialLU did.
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.
 template <class Real>

@@ -7,7 +7,7 @@
 
 namespace mortier {
 
-/// Name and version of each; of those linked at run time as they tell it themselves.
+/// Name and version of each; of those linked at run time as they report it.
 std::vector<std::pair<std::string, std::string>> linearLibraries();
 
 }  // namespace mortier

@@ -304,7 +304,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
     checkFriction(contact, faults);
     const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
                                        {contact.friction.any()}, input.scene.solver);
-    if (need.all > availableMemory()) continue;  // buildModel tells
+    if (need.all > availableMemory()) continue;  // buildModel reports it
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
       checkInterface(contact, one, two, interface, isTool(contact),

@@ -76,9 +76,9 @@ class DataLint {
     tellMissed(datum, missed);
     constexpr double noticeable = 0.01;  // the square of a tenth
     if (atNodes && !refinesMeshes(scene_) && between.part() > noticeable)
-      tell("datum-between-nodes", datum, between,
-           "the values at the nodes are used: between them it is off by " +
-               percent(std::sqrt(between.part())) + " of how it varies, most at ");
+      report("datum-between-nodes", datum, between,
+             "the values at the nodes are used: between them it is off by " +
+                 percent(std::sqrt(between.part())) + " of how it varies, most at ");
   }
 
   void inBody(const Expression& datum) {
@@ -110,12 +110,12 @@ class DataLint {
 
   void tellMissed(const Expression& datum, const Sum& missed) {
     if (missed.part() > ResolvedEdge::negligible)
-      tell("datum-unresolved", datum, missed,
-           "it varies so fast that its integrals are uncertain by up to " + percent(missed.part()) +
-               ", most at ");
+      report("datum-unresolved", datum, missed,
+             "it varies so fast that its integrals are uncertain by up to " + percent(missed.part()) +
+                 ", most at ");
   }
 
-  void tell(const std::string& id, const Expression& datum, const Sum& sum, const std::string& what) {
+  void report(const std::string& id, const Expression& datum, const Sum& sum, const std::string& what) {
     faults_.add(id, datum.where + ": " + what + formatted("[%.4g, %.4g]", sum.worst.x(), sum.worst.y()) +
                         (datum.inTime ? ", t = " + digits(sum.time, 4) : ""));
   }

@@ -34,7 +34,7 @@ struct Fault {
   const FaultKind* kind = nullptr;
   std::string place;    ///< `file:line`, or a mesh and what of it
   std::string message;  ///< what was found, with its numbers
-  size_t more = 0;      ///< faults of this kind that are counted only, in the last one that is told
+  size_t more = 0;      ///< faults of this kind that are counted only, in the last one that is listed
 };
 
 /// A list of faults: some of each kind, and the number of further ones.
@@ -55,7 +55,7 @@ class Faults {
  private:
   struct OfKind {
     std::unordered_set<size_t> seen;  ///< hashes: several components or bodies may share a fault
-    size_t last = 0;                  ///< index of the last one that is told
+    size_t last = 0;                  ///< index of the last one that is listed
   };
   std::set<std::string> allowed_;
   std::vector<Fault> faults_;

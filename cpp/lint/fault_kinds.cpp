@@ -25,7 +25,7 @@ const std::vector<FaultKind>& faultKinds() {
        "remove the triangle, or move one of its corners"},
       {"repeated-triangle", error, "a triangle stands twice in the mesh", "remove one of them"},
       {"unused-vertex", error, "a vertex is no corner of any triangle",
-       "remove the vertex, or mesh again: it may be what is left of a duplicate node"},
+       "remove the vertex, or mesh again: a duplicate node may have left it"},
       {"overlapping-triangles", error,
        "triangles share an edge that can be shared by two only, one on each side",
        "mesh again without elements on top of each other"},

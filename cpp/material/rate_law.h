@@ -1,4 +1,4 @@
-// A viscoplastic rate of one's own, G(sigma, eps) [1/s], at many points, with its derivatives. As a
+// A user-defined viscoplastic rate, G(sigma, eps) [1/s], at many points, with its derivatives. As a
 // small type in C++ it is
 //
 //   struct Creep {

@@ -11,7 +11,7 @@ namespace mortier {
 
 /// Keeps the regions with these names or numbers, and of the labelled edges those on their boundary, which
 /// may have been inside the mesh. Vertices that two of them share stay shared; those that a region shares
-/// with what is left out become its own. \throws InputError that lists the regions of the mesh.
+/// with those that are left out become its own. \throws InputError that lists the regions of the mesh.
 void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions);
 void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions);
 

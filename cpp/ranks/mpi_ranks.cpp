@@ -80,7 +80,7 @@ void MpiRanks::gatherToFirst(const std::vector<double>& own, const std::vector<s
   if (first()) traffic_ += sizeof(double) * static_cast<double>(parts.size());
 }
 
-void MpiRanks::tellFault() {
+void MpiRanks::reportFault() {
   meet(faulty);
 }
 
@@ -103,19 +103,19 @@ void MpiRanks::call(std::function<void()> work) {
   thread.join();
 }
 
-// What ends all of them is told by the first, what ends one alone by that one.
+// What ends all of them is reported by the first, what ends one alone by that one.
 bool MpiRanks::end(int code) {
-  bool tells = first();
+  bool reports = first();
   try {
     if (!lost_ && !peerEnded_) {
       const std::vector<int> standing = exchange(ended + code);
       const auto failed = [](int each) { return each > ended; };
-      tells = std::find_if(standing.begin(), standing.end(), failed) - standing.begin() == rank_;
+      reports = std::find_if(standing.begin(), standing.end(), failed) - standing.begin() == rank_;
     }
   } catch (const Interrupted&) {  // some no longer answer
   }
   if (errors_ >= 0) dup2(errors_, STDERR_FILENO);
-  return tells && !peerEnded_;
+  return reports && !peerEnded_;
 }
 
 void MpiRanks::leave() {

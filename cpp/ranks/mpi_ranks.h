@@ -1,4 +1,4 @@
-// The ranks of `mortier-mpi`: the processes that mpirun started. Before every exchange all tell each other
+// The ranks of `mortier-mpi`: the processes that mpirun started. Before every exchange all report
 // whether they were interrupted or have ended, so that none waits for one that does not come.
 #pragma once
 
@@ -26,7 +26,7 @@ class MpiRanks final : public Ranks {
   void largest(double* values, size_t count) override;
   void gather(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) override;
   void gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) override;
-  void tellFault() override;
+  void reportFault() override;
   void releaseFreeMemory() override;
 
   /// Calls work(), in which a library lets the ranks of MPI_COMM_WORLD exchange what it likes; it throws

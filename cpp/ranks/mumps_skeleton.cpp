@@ -72,7 +72,7 @@ class Mumps final : public Skeleton {
     if (std::uncaught_exceptions() > 0) return;
     try {
       call(Job::end);
-    } catch (const std::exception&) {  // the end of another rank, of which the next exchange tells again
+    } catch (const std::exception&) {  // the end of another rank, which the next exchange reports again
     }
   }
 

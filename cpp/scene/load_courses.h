@@ -18,7 +18,7 @@ struct LoadCourses {
   std::vector<double> breaks;  ///< their kinks and jumps and the breaks that the scene names, ascending [s]
 };
 
-/// Tables tell all of their kinks; expressions are tried at points where they act.
+/// Tables have all of their kinks; expressions are tried at points where they act.
 /// \throws InputError naming a datum that varies faster than can be sampled, or is not finite, and the point.
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model);
 

@@ -1,4 +1,4 @@
-// How much memory a run takes, told before anything of that size is allocated: in 8 bytes,
+// How much memory a run takes, reported before anything of that size is allocated: in 8 bytes,
 //   contact   2 n^2 for W and its factor (n conditions), m^2 in each body for the Schur complement on its m
 //             contact dofs, two in the one that is factorised last; or n (n + 2 m) while the rows are made,
 //             where that is more; with friction a node has two conditions and both its dofs take part;
@@ -32,7 +32,7 @@ MemoryNeed memoryNeed(const Model& model, const SolverOptions& options = {});
 /// other things take more.
 std::string forFriction(const MemoryNeed& need);
 
-/// What the machine and the limits of the process leave [bytes]; infinity where nothing tells.
+/// What the machine and the limits of the process leave [bytes]; infinity where it is not known.
 double availableMemory();
 
 /// \throws FaultError with both numbers where a run needs more than there is.

@@ -1,4 +1,4 @@
-// Laws of one's own by name, for scenes that say law = "name" (material/rate_law.h).
+// User-defined laws by name, for scenes that say law = "name" (material/rate_law.h).
 #pragma once
 
 #include <functional>

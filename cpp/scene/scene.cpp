@@ -45,7 +45,7 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
   if (scene.accuracy.asked() > 0 && !body.temperature->file.empty())
     throw InputError(body.temperature->where +
-                     ": temperature.file, expected a datum beside accuracy: vertices come and go");
+                     ": temperature.file, expected a datum beside accuracy: refinement changes the vertices");
 }
 
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {

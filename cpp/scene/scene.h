@@ -112,7 +112,7 @@ struct BodyDescription {
   std::vector<ConditionDescription> conditions;
   StressDescription initialStress;
   std::vector<RegionDescription> regions;
-  Volume volume = Volume::automatic;  ///< resolveScene decides what is left to the program
+  Volume volume = Volume::automatic;  ///< resolveScene decides an automatic one
   std::string volumeWhere;            ///< empty where the scene does not say it
   std::string volumeChoice;           ///< why it is that one, where the program has chosen it for a reason
   /// Of a tool, which is rigid and has no material: the point about which it turns [m]. Its conditions are

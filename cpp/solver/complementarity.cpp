@@ -104,7 +104,7 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
       if (solution.outcome != ContactSolution::Outcome::cycled) break;
     }
   }
-  // The motion along which bodies leave is told without it.
+  // The motion along which bodies leave is found without it.
   if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
   solution.pivots = pivots;
   solution.idle = idles;

@@ -23,8 +23,8 @@ inline double ratio(double part, double whole) {
   return part == 0 ? 0 : part / whole;
 }
 
-/// Calls solve(), which solves about its last solution and tells what the term still carries [-], until that
-/// is `rounding`. Where more than three repetitions are needed the term is too strong: soften().
+/// Calls solve(), which solves about its last solution and returns what the term still carries [-], until
+/// that is `rounding`. Where more than three repetitions are needed the term is too strong: soften().
 template <class Solve, class Soften = void (*)()>
 void repeatProximal(
     int most, double rounding, const Solve& solve, const Soften& soften = [] {}) {

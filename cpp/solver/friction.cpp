@@ -98,7 +98,7 @@ FrictionSolution solveOnSprings(const ContactProblem& problem, const Vector& q, 
   const bool ambiguous = work.ambiguous;
   FrictionSolution result = solveIndependent(problem, q, springs, first, true, work);
   if (result.solved || !work.singular) return result;
-  work.ambiguous = ambiguous;  // the sign of a determinant that is rounding tells nothing
+  work.ambiguous = ambiguous;  // the sign of a determinant that is rounding has no meaning
   result = solveDependent(problem, q, springs, first, work);
   if (result.solved) return result;
   // A single set may be singular where conditions are independent.

@@ -56,7 +56,7 @@ class Paths {
 
 }  // namespace
 
-// Near the end of the path it is told which triangles flow, and Newton's method finishes.
+// Near the end of the path it is known which triangles flow, and Newton's method finishes.
 StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIterations, Iterate& solution) {
   constexpr double toBoundary = 0.99;
   constexpr double blocked = 1e-6;

@@ -253,7 +253,7 @@ bool ActiveFactor::take(const std::vector<char>& active) {
   const Matrix schur = schur_.topLeftCorner(k, k);
   schurFactor_.compute(schur);
   work_ += 2.0 / 3 * static_cast<double>(k) * static_cast<double>(k) * static_cast<double>(k);
-  // Close to singular: factors of the set itself tell.
+  // Close to singular: factors of the set itself decide.
   constexpr double doubtful = 1e-9;
   if (!(schurFactor_.matrixLU().diagonal().cwiseAbs().minCoeff() > doubtful * unit_)) return refactor(active);
   return true;

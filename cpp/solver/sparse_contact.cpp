@@ -9,8 +9,8 @@
 namespace mortier {
 namespace {
 
-/// Penalties over the stiffness of the nodes that a condition acts on: a repetition leaves about one part in
-/// so many of an error, and rounding takes so many times more of what it takes from the stiffness alone.
+/// Penalties over the stiffness of the nodes that a condition acts on: a repetition divides an error by about
+/// it, and rounding grows by this factor.
 constexpr double penaltyRatio = 1e4;
 
 /// Smaller entries of a row are the rounding of larger ones, over its largest [-].

@@ -44,7 +44,7 @@ class SparseContact {
     double motionNoise = 0;  ///< and of C d
   };
   /// On the set that was factorised. \param force  F - C' p0. \param anchors  where the springs on rigid
-  /// motions pull to. \param exact  to rounding, or only so far that signs can be told.
+  /// motions pull to. \param exact  to rounding, or only so far that signs are known.
   [[nodiscard]] Solution solve(const Vector& force, const Vector& p0, const Vector& slack,
                                const Vector& anchors, bool exact) const;
 

@@ -131,7 +131,7 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
   solution.idle = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   solution.work = matrix.factorisations() - before;
   motion = contact.motion();
-  // The motion along which bodies leave is told without what was taken first.
+  // The motion along which bodies leave is found without what was taken first.
   if (solution.outcome == ContactSolution::Outcome::unbalanced)
     solution.rigid = contact.rigid(solution);
   else

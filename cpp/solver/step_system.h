@@ -7,7 +7,7 @@
 //
 // with T' t beside C' p and the law of t and the slip T du (friction.h) where there is friction.
 //
-// Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
+// Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; there remains
 //   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
 // with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
 // is solved there. A linear solve goes from one type to the next, and only so:

@@ -12,7 +12,7 @@
 namespace mortier {
 namespace {
 
-constexpr int mostOnsets = 6;       // attempts that may be told to end on the onset of flow
+constexpr int mostOnsets = 6;       // attempts that may end on the onset of flow
 constexpr double aim = 0.7;         // of the tolerance
 constexpr double unseenPart = 0.2;  // of the square root of the tolerance
 
@@ -326,7 +326,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       reject();
       continue;
     }
-    // A step that was only shortened to end on a stop tells nothing against a longer one.
+    // A step that was only shortened to end on a stop is no reason against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
     if (!second) own.timeStep = std::max(leastStep(t1), shortened ? std::max(grown, own.timeStep) : grown);

@@ -30,7 +30,7 @@ class Controller {
  public:
   Controller(const Model& model, const TimePlan& plan, MarchMemory& memory);
 
-  /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of
+  /// A few large steps of backward Euler to the end and back: only they show how large the displacements of
   /// this run will be, of which early ones may be a tiny part. Makes the first guess of the error of a step.
   void pilot(StepTaker& taker, State& state);
   /// Prepares a run from the beginning.

@@ -1,5 +1,5 @@
-// Stresses that the corners of bodies make unbounded, known from their angles: where a mesh is too coarse to
-// measure how they grow (time/unbounded_order.h).
+// Places where stresses are unbounded, so that largest values have no limit: the order measured on the mesh
+// (unbounded_order.cpp) and, where that is too coarse, the order of corners, known from their angles.
 //
 // Near a corner of the angle w the stresses go like r^(l-1), l the least root of (Williams 1952)
 //
@@ -15,6 +15,10 @@
 #include "solver/state.h"
 
 namespace mortier {
+
+/// a, where stresses near a place are unbounded like r^-a, so that the energy in discs around it goes like
+/// r^(2 - 2a) in one of the bodies. 0 where they seem bounded, and where meshes are too coarse.
+double unboundedOrder(const Model& model, const State& state, const Point& place);
 
 /// Of a side of a corner.
 enum class SideSupport { free, sliding, held };

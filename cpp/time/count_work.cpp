@@ -8,7 +8,7 @@
 // dissipation takes the weights of the scheme, by which it is never negative:
 //   D1 - D0 = sum |T| k sum b_i (s_i - X_i) : G_i,   X the back stress of hardening: X : eps_v / 2 is stored.
 // Thermal strain that changes by a adds 1/2 sum |T| (s0 + s1) : a on the right: less that is its work.
-// docs/theory.md says what is left between both where bodies flow.
+// docs/theory.md has the difference of both where bodies flow.
 #include <array>
 
 #include "material/back_stress.h"

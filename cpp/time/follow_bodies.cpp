@@ -3,7 +3,7 @@
 //
 //   geometry at u_k  ->  contact problem with these rows, solved exactly  ->  u_(k+1)
 //
-// is repeated until the solution fulfils its conditions on the geometry at u_(k+1) too (docs/theory.md). The
+// is repeated until the solution fulfils its conditions on the geometry at u_(k+1) too (docs/sliding.md). The
 // first geometry is that of the guess.
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // Numbers that a user asks for, of every state of a run: forces of supports and of contact, displacements,
 // energies and work, largest values.
 //
-// The forces that supports exert are what is left of equilibrium at the nodes that they hold,
+// The forces that supports exert are the residual of equilibrium at the nodes that they hold,
 //   r = sum |T| B' s + C' p - F.
 // At a node with two prescribed motions r is split along their directions, so each label and each point has
 // the forces of its own supports and those of all add up to all of r.

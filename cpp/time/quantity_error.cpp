@@ -9,7 +9,6 @@
 #include "time/march.h"
 #include "time/nodal_forces.h"
 #include "time/quantity_motion.h"
-#include "time/unbounded_order.h"
 
 namespace mortier {
 namespace {

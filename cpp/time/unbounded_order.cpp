@@ -1,4 +1,4 @@
-#include "time/unbounded_order.h"
+#include "time/corner_order.h"
 
 #include <algorithm>
 #include <array>

@@ -303,11 +303,12 @@ class Links(unittest.TestCase):
 
 
 class Theory(unittest.TestCase):
-    """docs/theory.md, measurements.md and decisions.md name files and functions of cpp/, and tests."""
+    """Pages on the method, measurements.md and decisions.md name files and functions of cpp/, and tests."""
 
     def test_names_exist(self):
         text = "\n".join((ROOT / "docs" / name).read_text()
-                         for name in ("theory.md", "measurements.md", "decisions.md"))
+                         for name in ("theory.md", "sliding.md", "space.md", "measurements.md",
+                                      "decisions.md"))
         prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
         files = {str(path.relative_to(ROOT / "cpp")): path for path in (ROOT / "cpp").rglob("*")
                  if path.is_file()}

@@ -128,7 +128,7 @@ FAULTS = [
      "mortar friction", ""),
     ("slip that goes on against t", "friction", "side*gd(i) < -tinySlip", "false", "sloped",
      "mortar friction", ""),
-    ("half the flow of a law of one's own", "law", "ownPoint(b, q*nt + T, thetaScale*k)",
+    ("half the flow of a user-defined law", "law", "ownPoint(b, q*nt + T, thetaScale*k)",
      "ownPoint(b, q*nt + T, thetaScale*k/2)", "turned", "user law of the strain", "displacement"),
     ("strain of the step for that of all", "own_law", "strainP(q) + sp0(q)*compP(q) + vp0(q)", "strainP(q)",
      "turned", "user law of the strain", "displacement"),

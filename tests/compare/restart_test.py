@@ -27,7 +27,7 @@ HARDENING = ('body.upper.material={young=3e11, poisson=0.3, law="viscoplastic", 
              'reference_stress=5, reference_rate=0.05, exponent=4, kinematic_hardening=20, '
              'isotropic_hardening=30}')
 
-# A standard linear solid as a law of one's own: its state is in the strain.
+# A standard linear solid as a user-defined law: its state is in the strain.
 OWN = ('body.upper.material={young=3e11, poisson=0.3, law="expression", ' +
        "".join(f'rate{c}="(1.3*(s{c}{m})/3e11 - 0.3*(e{c}{d}))/0.3", '
                for c, m, d in (("11", "-m", "-d"), ("22", "-m", "-d"), ("12", "", ""), ("33", "-m", "-d"))) +

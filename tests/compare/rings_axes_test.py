@@ -1,5 +1,5 @@
-"""Bodies of revolution whose elasticity has axes, against exact solutions, and laws of one's own beside those
-that they repeat."""
+"""Bodies of revolution whose elasticity has axes, against exact solutions, and user-defined laws beside
+those that they repeat."""
 import csv
 import math
 import unittest
