@@ -13,11 +13,11 @@
 // they may stop at any time.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "base/sparse.h"
 #include "bound/side_tractions.h"
 #include "linear/condensing_solver.h"
 
