@@ -6,7 +6,7 @@
 The faults stand in tests/mutations.txt. Everything happens on a copy of the tracked files in DIR, with a
 build folder that is kept. A fault costs the files that hold it, and each test is linked when its turn comes.
 Only tests are run that use the layer of the fault, unit tests that include it first, until one fails, crashes
-or computes for more than two minutes. In the end those that did must pass without a fault.
+or computes for more than two minutes. What fails without a fault too is left out, and the others are run.
 """
 import argparse
 import os
@@ -146,25 +146,25 @@ class Tree:
             self.seconds[test] = time.monotonic() - begin
         return None if status == 0 else "fails" if status > 0 else signal.Signals(-status).name
 
-    def inject(self, file, old, new):
-        """The text of the file without the fault; raises ValueError where it cannot be injected."""
+    def catch(self, file, old, new):
+        """(the first test that fails with the fault, how), or None; raises ValueError where it cannot be
+        injected."""
         path = self.source / file
         sound = path.read_text()
         found = places(sound, old)
         if len(found) != 1:
             raise ValueError(f"stands {len(found)} times in the file, expected once")
         path.write_text(sound[:found[0].start()] + new + sound[found[0].end():])
-        return sound
-
-    def catch(self, file):
-        """(the first test that fails, how), or None."""
         turns = {test: self.turn(test, file) for test in self.tests}
-        for test in sorted((test for test in turns if turns[test]), key=turns.get):
-            failure = self.passes(test)
-            if failure == "does not compile":
-                raise ValueError(failure)
-            if failure:
-                return test, failure
+        try:
+            for test in sorted((test for test in turns if turns[test]), key=turns.get):
+                failure = self.passes(test)
+                if failure == "does not compile":
+                    raise ValueError(failure)
+                if failure:
+                    return test, failure
+        finally:
+            path.write_text(sound)
         return None
 
 
@@ -180,33 +180,30 @@ def main():
                         help="build-mutations/")
     options = parser.parse_args()
     tree = Tree(options.folder.resolve(), options.labels.split(","))
-    by_test, missed, broken = {}, [], []
-    for number, (file, old, new) in enumerate(faults(), 1):
-        name = f"{number} {file}: {old}  ->  {new}"
-        if number < options.first or options.only not in name:
-            continue
-        begin, sound, verdict = time.monotonic(), None, "no test sees it"
-        try:
-            sound = tree.inject(file, old, new)
-            catcher = tree.catch(file)
-            if catcher:
-                by_test.setdefault(catcher[0], []).append(name)
-                verdict = " ".join(catcher)
-            else:
-                missed.append(name)
-        except ValueError as error:
-            broken.append(name)
-            verdict = f"NO FAULT: {error}"
-        finally:
-            if sound is not None:
-                (tree.source / file).write_text(sound)
-        print(f"{time.monotonic() - begin:6.0f} s  {name}\n          {verdict}", flush=True)
-    for test, names in by_test.items():
-        failure = tree.passes(test)
-        if failure:
-            print(f"{test} {failure} without a fault: what it saw does not count")
-            missed += names
-    total = len(missed) + sum(len(names) for names in by_test.values() if not set(names) & set(missed))
+    todo = [(f"{number} {file}: {old}  ->  {new}", file, old, new)
+            for number, (file, old, new) in enumerate(faults(), 1) if number >= options.first]
+    todo = [fault for fault in todo if options.only in fault[0]]
+    seen, missed, broken = {}, [], []
+    while todo:
+        for fault in todo:
+            begin, verdict = time.monotonic(), "no test sees it"
+            try:
+                catcher = tree.catch(*fault[1:])
+                if catcher:
+                    seen.setdefault(catcher[0], []).append(fault)
+                    verdict = " ".join(catcher)
+                else:
+                    missed.append(fault[0])
+            except ValueError as error:
+                broken.append(fault[0])
+                verdict = f"NO FAULT: {error}"
+            print(f"{time.monotonic() - begin:6.0f} s  {fault[0]}\n          {verdict}", flush=True)
+        unsound = {test: failure for test, failure in zip(seen, map(tree.passes, seen)) if failure}
+        for test, failure in unsound.items():
+            print(f"{test} {failure} without a fault: the others are asked for what it saw")
+        todo = [fault for test in unsound for fault in seen.pop(test)]
+        tree.tests = [test for test in tree.tests if test not in unsound]
+    total = len(missed) + sum(map(len, seen.values()))
     print(f"\n{total - len(missed)} of {total} faults are seen "
           f"({100 - 100 * len(missed) / max(total, 1):.1f} %)")
     for name in missed:

@@ -209,13 +209,13 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
         meshes_.refineAll();
       if (done_ == 1 && !meshes_.inSpace())
         for (const ContactDescription& contact : description_.contacts)
-          meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
-                              bodyIndex(description_, contact.mortar.body), contact.mortar.label);
+          meshes_.faceCorners(bodyIndex(description_, contact.nonmortar().body), contact.nonmortar().label,
+                              bodyIndex(description_, contact.mortar().body), contact.mortar().label);
       // Pressures are as coarse as the nonmortar side, however little of the error is in its body.
       if (aims())
         for (const ContactDescription& contact : description_.contacts)
-          meshes_.faceSizes(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
-                            bodyIndex(description_, contact.mortar.body), contact.mortar.label);
+          meshes_.faceSizes(bodyIndex(description_, contact.nonmortar().body), contact.nonmortar().label,
+                            bodyIndex(description_, contact.mortar().body), contact.mortar().label);
       const int unknowns = meshes_.unknowns();
       const double expected = cost * std::pow(double(unknowns) / before, power);
       const bool small = unknowns <= goal.maxUnknowns;

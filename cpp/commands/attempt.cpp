@@ -45,7 +45,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));
     facts.choices.push_back(contact.choice);
-    nonmortars.insert(contact.nonmortar.body);
+    nonmortars.insert(contact.nonmortar().body);
   }
   facts.contact = joined({facts.variants.begin(), facts.variants.end()}, "none");
   facts.nonmortar = joined(nonmortars, "none");
@@ -86,7 +86,7 @@ Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(
   lookAhead(description, *model);
   if (options.share) whyNotShared = reasonNotToShare(description, *model);
   if (options.share && whyNotShared.empty()) share();
-  state = initialState(solvedModel());
+  solved.state = initialState(solvedModel());
 }
 
 void Attempt::share() {

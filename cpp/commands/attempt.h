@@ -25,8 +25,7 @@ struct Attempt {
   std::string whyNotShared;                  ///< why ranks cannot share it; empty where they do
   std::unique_ptr<CurrentSpaceError> error;  ///< of the meshes, in the state that the run is at
   RunFacts facts;
-  State state;  ///< the first one
-  Solved solved;
+  Solved solved;  ///< before the march the state in which it begins
 
   /// \throws InputError, UnheldBodyError
   Attempt(ResolvedScene scene, const AttemptOptions& options);

@@ -88,7 +88,7 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
     // Contact acts along the normals of the nonmortar line alone, whatever corners the other one has.
     const ContactDescription& contact = scene.contacts[k];
     const bool oneNormal = contact.sliding == SlidingKind::finite
-                               ? stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes) >= 1
+                               ? stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes) >= 1
                                : parts.front().straight;
     const bool cornersCount =
         parts.size() > 1 ||

@@ -123,7 +123,7 @@ bool Run::waitsForFirstRank() const {
 
 std::string Run::settle() const {
   if (resumes()) return "";
-  return findInitialEquilibrium(attempt_->scene(), attempt_->solvedModel(), attempt_->state);
+  return findInitialEquilibrium(attempt_->scene(), attempt_->solvedModel(), attempt_->solved.state);
 }
 
 void Run::open() {

@@ -52,9 +52,8 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     state = inParts ? ofParts(solvedModel, stopped.state) : std::move(stopped.state);
     memory = inParts ? ofParts(solvedModel, stopped.memory) : std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
-  } else {
-    if (toFiles) files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units);
-    state = now.state;
+  } else if (toFiles) {
+    files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units);
   }
   if (!inParts) error.moveTo(state);
   AccuracyRecord accuracies(model, error, accuracySoFar);

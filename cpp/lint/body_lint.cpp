@@ -10,7 +10,9 @@ namespace mortier {
 namespace {
 
 bool isOf(const ContactDescription& c, const std::string& a, const std::string& b) {
-  return (c.nonmortar.body == a && c.mortar.body == b) || (c.nonmortar.body == b && c.mortar.body == a);
+  const std::string& one = c.nonmortar().body;
+  const std::string& other = c.mortar().body;
+  return (one == a && other == b) || (one == b && other == a);
 }
 
 bool inContact(const SceneDescription& scene, const std::string& a, const std::string& b) {

@@ -81,9 +81,9 @@ std::string facingPair(const LintInput& input, const Side& a, const Side& b) {
 ContactInterface interfaceOf(const ContactDescription& contact, const Side& one, const Side& two,
                              bool swapped) {
   const ContactSide first{static_cast<int>(one.body),
-                          swapped ? contact.mortar.label : contact.nonmortar.label};
+                          swapped ? contact.mortar().label : contact.nonmortar().label};
   const ContactSide second{static_cast<int>(two.body),
-                           swapped ? contact.nonmortar.label : contact.mortar.label};
+                           swapped ? contact.nonmortar().label : contact.mortar().label};
   InterfaceOptions options;
   options.follows = contact.sliding == SlidingKind::finite;
   return {{first, second, contact.variant}, *one.mesh, *two.mesh, options};
@@ -110,7 +110,7 @@ void diagnose(const LintInput& input, const ContactDescription& contact, const S
       return;
     }
   }
-  if (contact.nonmortar.label != contact.mortar.label && fits(contact, one, two, true)) {
+  if (contact.nonmortar().label != contact.mortar().label && fits(contact, one, two, true)) {
     faults.add("contact-labels-swapped", contact.where,
                both + " do not meet, with their labels exchanged they do");
     return;
@@ -149,8 +149,8 @@ void compareMeshes(const LintInput& input, const ContactDescription& contact, co
                    " long, those of " + name(two) + " " + digits(h2, 4) + " " + scene.units.length);
   else if (ratio > coarser &&
            (contact.variant == CouplingKind::interpolation ||
-            stiffnessRatio(scene, contact.mortar, contact.nonmortar, input.meshes) <= softer))
-    faults.add("nonmortar-coarser", contact.nonmortar.where,
+            stiffnessRatio(scene, contact.mortar(), contact.nonmortar(), input.meshes) <= softer))
+    faults.add("nonmortar-coarser", contact.nonmortar().where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
                    " times as long as those of the mortar side");
   if (contact.variant == CouplingKind::coarsened) return;
@@ -173,7 +173,7 @@ void checkFriction(const ContactDescription& contact, Faults& faults) {
 void checkConditions(const LintInput& input, const ContactDescription& contact,
                      const ContactInterface& interface, Faults& faults) {
   using Kind = ConditionDescription::Kind;
-  for (const SideDescription* side : {&contact.nonmortar, &contact.mortar}) {
+  for (const SideDescription* side : {&contact.nonmortar(), &contact.mortar()}) {
     const BodyDescription& body = input.scene.bodies[bodyIndex(input.scene, side->body)];
     const TriangleMesh& mesh = *input.meshes[bodyIndex(input.scene, side->body)];
     for (const ConditionDescription& c : body.conditions) {
@@ -181,13 +181,13 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
       if (c.actsOn(side->label)) {
         if (c.kind == Kind::traction)
           faults.add("load-on-contact", c.where, what + " is in contact and carries a traction");
-        else if (side == &contact.nonmortar)
+        else if (side == &contact.nonmortar())
           faults.add("support-on-contact", c.where, what + " is the nonmortar side and is held");
         continue;
       }
       // A held node with a contact condition of its own: its normal motion is given twice. The mortar
       // coupling gives the condition to its neighbour.
-      if (c.kind != Kind::displacement || side != &contact.nonmortar ||
+      if (c.kind != Kind::displacement || side != &contact.nonmortar() ||
           contact.variant != CouplingKind::interpolation)
         continue;
       int node = -1;
@@ -261,7 +261,7 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
   Sliding worst;
   for (const double t : trialTimes(input.scene.time)) {
     const Point by = supportedMotion(input, contact, t);
-    const Vector turns = turnOf(input, contact.mortar, t);
+    const Vector turns = turnOf(input, contact.mortar(), t);
     if (by.isZero(0) && turns.isZero(0)) continue;
     const Vector u = by.replicate(interface.C1().cols() / 2, 1);
     Vector gap = interface.jump(u, turns);
@@ -284,23 +284,24 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 
 void lintContacts(const LintInput& input, Faults& faults) {
   const auto isTool = [&](const ContactDescription& contact) {
-    return input.scene.bodies[bodyIndex(input.scene, contact.mortar.body)].isTool();
+    return input.scene.bodies[bodyIndex(input.scene, contact.mortar().body)].isTool();
   };
   for (size_t k = 0; k < input.scene.contacts.size(); ++k) {
     const ContactDescription& contact = input.scene.contacts[k];
     for (size_t j = 0; j < k; ++j)
-      for (const SideDescription* a : {&contact.nonmortar, &contact.mortar})
-        for (const SideDescription* b : {&input.scene.contacts[j].nonmortar, &input.scene.contacts[j].mortar})
+      for (const SideDescription* a : {&contact.nonmortar(), &contact.mortar()})
+        for (const SideDescription* b :
+             {&input.scene.contacts[j].nonmortar(), &input.scene.contacts[j].mortar()})
           if (a->body == b->body && a->label == b->label && !isTool(contact) &&
               !isTool(input.scene.contacts[j]))
             faults.add(
                 "contact-side-twice", a->where,
                 name(sideOf(input, *a, a->label)) + " is a side of another contact too, at " + b->where);
-    const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
-    const Side two = sideOf(input, contact.mortar, contact.mortar.label);
+    const Side one = sideOf(input, contact.nonmortar(), contact.nonmortar().label);
+    const Side two = sideOf(input, contact.mortar(), contact.mortar().label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
     if (!refinesMeshes(input.scene) && !isTool(contact)) compareMeshes(input, contact, one, two, faults);
-    const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
+    const ContactPair pair{{0, contact.nonmortar().label}, {1, contact.mortar().label}, contact.variant};
     checkFriction(contact, faults);
     const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
                                        {contact.friction.any()}, input.scene.solver);

@@ -145,8 +145,8 @@ void lintData(const SceneDescription& scene, const Model& model, Faults& faults)
   }
   for (const ContactDescription& contact : scene.contacts)
     if (contact.gap)
-      DataLint(scene, model.bodies[bodyIndex(scene, contact.nonmortar.body)], faults)
-          .onLabel(*contact.gap, contact.nonmortar.label, true);
+      DataLint(scene, model.bodies[bodyIndex(scene, contact.nonmortar().body)], faults)
+          .onLabel(*contact.gap, contact.nonmortar().label, true);
 }
 
 }  // namespace mortier

@@ -145,8 +145,8 @@ std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideD
 Point supportedMotion(const LintInput& input, const ContactDescription& contact, double t) {
   Point by(0, 0);
   for (const int axis : {0, 1}) {
-    const auto first = movedTo(input, contact.nonmortar, axis, t);
-    const auto second = movedTo(input, contact.mortar, axis, t);
+    const auto first = movedTo(input, contact.nonmortar(), axis, t);
+    const auto second = movedTo(input, contact.mortar(), axis, t);
     if (!first || !second) continue;
     const double least = (*first)[0] - (*second)[1];
     const double most = (*first)[1] - (*second)[0];
@@ -158,7 +158,7 @@ Point supportedMotion(const LintInput& input, const ContactDescription& contact,
 void lintApproach(const LintInput& input, const ContactDescription& contact, ContactInterface interface,
                   Faults& faults) {
   if (contact.gap) return;
-  const auto nonmortar = static_cast<size_t>(bodyIndex(input.scene, contact.nonmortar.body));
+  const auto nonmortar = static_cast<size_t>(bodyIndex(input.scene, contact.nonmortar().body));
   const Vector still = Vector::Zero(interface.C2().cols());
   Most strain{0, contact.where};
   for (const double t : someTimes(input.scene.time)) {
@@ -173,11 +173,12 @@ void lintApproach(const LintInput& input, const ContactDescription& contact, Con
     if (!(deepest > 0)) continue;
     const Point& x = input.meshes[nonmortar]->vertices[interface.nonmortarNodes()[row]];
     const Point& n = interface.normals()[row];
-    strain.raise(deepest / (lengthTo(input, contact.nonmortar, x, n) + lengthTo(input, contact.mortar, x, n)),
-                 contact.where);
+    strain.raise(
+        deepest / (lengthTo(input, contact.nonmortar(), x, n) + lengthTo(input, contact.mortar(), x, n)),
+        contact.where);
   }
   addStrain(strain,
-            "supports press bodies " + contact.nonmortar.body + " and " + contact.mortar.body +
+            "supports press bodies " + contact.nonmortar().body + " and " + contact.mortar().body +
                 " into each other, which strains them",
             faults);
 }

@@ -38,7 +38,7 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
   const auto side = [&](const SideDescription& description) {
     return ContactSide{bodyIndex(input.scene, description.body), description.label};
   };
-  const ContactPair pair{side(contact.nonmortar), side(contact.mortar), contact.variant};
+  const ContactPair pair{side(contact.nonmortar()), side(contact.mortar()), contact.variant};
   const TriangleMesh* one = input.meshes[pair.nonmortar.body];
   const TriangleMesh* two = input.meshes[pair.mortar.body];
   if (one == nullptr || two == nullptr) return 0;

@@ -146,7 +146,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
   // What presses or stresses bodies from the start.
   constexpr double noticeable = 1e-6;
   for (size_t k = 0; k < input.interference.size(); ++k) {
-    const auto body = static_cast<size_t>(bodyIndex(input.scene, input.scene.contacts[k].nonmortar.body));
+    const auto body = static_cast<size_t>(bodyIndex(input.scene, input.scene.contacts[k].nonmortar().body));
     any = any || input.interference[k] > noticeable * extent(*input.meshes[body]);
   }
   for (const BodyDescription& body : input.scene.bodies) {

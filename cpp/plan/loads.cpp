@@ -136,11 +136,11 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
     }
   }
   for (const ContactDescription& contact : input.scene.contacts) {
-    const int b = bodyIndex(input.scene, contact.nonmortar.body);
+    const int b = bodyIndex(input.scene, contact.nonmortar().body);
     if (!contact.gap || !contact.gap->inTime) continue;
     const std::optional<Places> places = placesOf(input, b);
     if (!places) continue;
-    const auto nonmortar = [&](int label) { return label == contact.nonmortar.label; };
+    const auto nonmortar = [&](int label) { return label == contact.nonmortar().label; };
     data.push_back({SampledDatum::Kind::distance, static_cast<size_t>(b), &*contact.gap,
                     thinned(places->on(nonmortar)), places->size});
   }

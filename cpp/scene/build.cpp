@@ -163,7 +163,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   ContactPair pair;
   pair.coupling = contact.variant;
   for (const auto& [side, target] :
-       {std::pair(&contact.nonmortar, &pair.nonmortar), std::pair(&contact.mortar, &pair.mortar)}) {
+       {std::pair(&contact.nonmortar(), &pair.nonmortar), std::pair(&contact.mortar(), &pair.mortar)}) {
     target->body = bodyIndex(scene, side->body);
     target->label = side->label;
   }
@@ -189,7 +189,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   options.friction = contact.friction;
   options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
-  options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
+  options.stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;

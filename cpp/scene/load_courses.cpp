@@ -70,7 +70,8 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
   }
   for (const ContactDescription& contact : scene.contacts)
     if (contact.gap)
-      call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar.body)], &contact.nonmortar.label);
+      call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar().body)],
+           &contact.nonmortar().label);
 }
 
 /// Found between the times of peaks, at which it has breaks.

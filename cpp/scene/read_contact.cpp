@@ -32,14 +32,15 @@ SideDescription readSide(const Node& node, const std::string& key, const SceneDe
 void readSides(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
   constexpr auto example = "{ body = \"...\", label = ... }";
   const std::vector<const Node*> sides = table.tables("sides");
-  contact.sidesGiven = sides.empty();
+  const bool swap = table.boolean("swap");
   const auto isTool = [&](const SideDescription& side) {
     return scene.bodies[bodyIndex(scene, side.body)].isTool();
   };
-  if (contact.sidesGiven) {
-    contact.nonmortar = readSide(table.require("nonmortar", example), "nonmortar", scene);
-    contact.mortar = readSide(table.require("mortar", example), "mortar", scene);
-    if (isTool(contact.nonmortar) || (isTool(contact.mortar) && table.boolean("swap")))
+  if (sides.empty()) {
+    contact.sides = {readSide(table.require("nonmortar", example), "nonmortar", scene),
+                     readSide(table.require("mortar", example), "mortar", scene)};
+    contact.nonmortarSide = swap ? 1 : 0;
+    if (isTool(contact.nonmortar()))
       table.refuse(*table.find("nonmortar"),
                    "a tool as the nonmortar side, expected the body: pressures and conditions are its own");
     return;
@@ -49,14 +50,13 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
       table.refuse(*node,
                    std::string(other) + " beside sides, expected either sides or nonmortar and mortar");
   if (sides.size() != 2) table.reject("sides", std::string("two tables [") + example + ", " + example + "]");
-  contact.nonmortar = readSide(*sides[0], "sides", scene);
-  contact.mortar = readSide(*sides[1], "sides", scene);
-  const int tools = (isTool(contact.nonmortar) ? 1 : 0) + (isTool(contact.mortar) ? 1 : 0);
+  contact.sides = {readSide(*sides[0], "sides", scene), readSide(*sides[1], "sides", scene)};
+  contact.otherSide = swap;
+  const auto tools = std::count_if(contact.sides.begin(), contact.sides.end(), isTool);
   if (tools == 0) return;
   if (tools == 2) table.refuse(*table.find("sides"), "two tools in contact, expected a body on one side");
-  if (isTool(contact.nonmortar)) std::swap(contact.nonmortar, contact.mortar);
   table.rejectIfGiven({"swap"}, "it only beside two bodies: of a tool and a body the body is nonmortar");
-  contact.sidesGiven = true;
+  contact.nonmortarSide = isTool(contact.sides[0]) ? 1 : 0;
   contact.choice = "nonmortar is the body, mortar the tool";
 }
 
@@ -111,20 +111,18 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.friction = readFriction(table, scene);
   contact.sliding = table.choice<SlidingKind>("sliding");
   if (contact.sliding == SlidingKind::finite) refuseBesideFinite(table, scene, contact);
-  const bool swap = table.boolean("swap");
-  contact.otherSide = swap && !contact.sidesGiven;
-  if (swap && contact.sidesGiven) std::swap(contact.nonmortar, contact.mortar);
-  if (contact.nonmortar.body == contact.mortar.body)
-    throw FaultError(table.message(contact.mortar.where,
-                                   "both sides are body " + contact.mortar.body + ", expected two bodies"),
+  if (contact.nonmortar().body == contact.mortar().body)
+    throw FaultError(table.message(contact.mortar().where,
+                                   "both sides are body " + contact.mortar().body + ", expected two bodies"),
                      "same-body");
   for (const ContactDescription& other : scene.contacts) {
-    if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
-        other.nonmortar.labelName == contact.nonmortar.labelName && contact.sidesGiven && other.sidesGiven &&
-        !scene.bodies[bodyIndex(scene, contact.mortar.body)].isTool())
-      throw InputError(table.message(contact.nonmortar.where,
-                                     "label " + std::to_string(contact.nonmortar.label) + " of body " +
-                                         contact.nonmortar.body + " is nonmortar twice, expected once"));
+    if (other.nonmortar().body == contact.nonmortar().body &&
+        other.nonmortar().label == contact.nonmortar().label &&
+        other.nonmortar().labelName == contact.nonmortar().labelName && contact.nonmortarSide &&
+        other.nonmortarSide && !scene.bodies[bodyIndex(scene, contact.mortar().body)].isTool())
+      throw InputError(table.message(contact.nonmortar().where,
+                                     "label " + std::to_string(contact.nonmortar().label) + " of body " +
+                                         contact.nonmortar().body + " is nonmortar twice, expected once"));
   }
   return contact;
 }

@@ -101,8 +101,8 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
     for (RegionDescription& r : scene.bodies[b].regions) region(b, r.label, r.labelName, r.where);
   }
   for (ContactDescription& contact : scene.contacts)
-    for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
-      boundary(bodyIndex(scene, side->body), side->label, side->labelName, side->where);
+    for (SideDescription& side : contact.sides)
+      boundary(bodyIndex(scene, side.body), side.label, side.labelName, side.where);
   for (QuantityDescription& q : scene.quantities)
     if (q.whole)
       continue;

@@ -161,7 +161,7 @@ void requireToolsTouch(const SceneDescription& scene) {
   for (const BodyDescription& tool : scene.bodies) {
     std::vector<const ContactDescription*> contacts;
     for (const ContactDescription& contact : scene.contacts)
-      if (contact.mortar.body == tool.name) contacts.push_back(&contact);
+      if (contact.mortar().body == tool.name) contacts.push_back(&contact);
     const std::string subject = tool.where + ": tool " + tool.name + ": ";
     if (tool.isTool() && contacts.empty())
       throw InputError(subject + "in no contact, expected one with a body");
@@ -262,7 +262,7 @@ bool mayFlow(const BodyDescription& body) {
 bool isFollowed(const SceneDescription& scene, const std::string& body) {
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
     return contact.sliding == SlidingKind::finite &&
-           (contact.nonmortar.body == body || contact.mortar.body == body);
+           (contact.nonmortar().body == body || contact.mortar().body == body);
   });
 }
 

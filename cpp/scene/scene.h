@@ -146,10 +146,10 @@ enum class SlidingKind {
 };
 
 struct ContactDescription {
-  SideDescription nonmortar;
-  SideDescription mortar;
-  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/resolve.h)
-  bool otherSide = false;  ///< where it is left to the program: the one that it would not choose
+  std::array<SideDescription, 2> sides;  ///< as the scene names them
+  /// Which of them is nonmortar; empty, then the first, until the meshes decide it (scene/resolve.h).
+  std::optional<int> nonmortarSide;
+  bool otherSide = false;  ///< where meshes decide it: the one that they would not choose
   std::string choice;      ///< why side and variant are those, where the program has chosen
   CouplingKind variant = CouplingKind::mortar;
   bool variantGiven = true;  ///< otherwise it is left to the program (scene/resolve.h)
@@ -158,6 +158,9 @@ struct ContactDescription {
   Friction friction;
   SlidingKind sliding = SlidingKind::refuse;
   std::string where;
+
+  [[nodiscard]] const SideDescription& nonmortar() const { return sides[nonmortarSide.value_or(0)]; }
+  [[nodiscard]] const SideDescription& mortar() const { return sides[1 - nonmortarSide.value_or(0)]; }
 };
 
 /// A number that the run is to report (time/quantity.h).

@@ -99,21 +99,21 @@ void decideSide(ContactDescription& contact, double edge1, double edge2, double 
   else if (contact.otherSide)
     contact.choice = alike ? "both meshes are as fine, nonmortar is the side named last (swap)"
                            : "nonmortar is the coarser mesh (swap)";
-  if (second != contact.otherSide) std::swap(contact.nonmortar, contact.mortar);
+  contact.nonmortarSide = second != contact.otherSide ? 1 : 0;
 }
 
 }  // namespace
 
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   for (ContactDescription& contact : scene.contacts) {
-    if (contact.sidesGiven || !contact.choice.empty()) continue;
-    const auto edge1 = meanEdge(scene, contact.nonmortar, meshes);
-    const auto edge2 = meanEdge(scene, contact.mortar, meshes);
+    if (contact.nonmortarSide) continue;
+    const auto& [side1, side2] = contact.sides;
+    const auto edge1 = meanEdge(scene, side1, meshes);
+    const auto edge2 = meanEdge(scene, side2, meshes);
     if (!edge1 || !edge2) continue;
-    decideSide(contact, *edge1, *edge2,
-               contact.variant == CouplingKind::interpolation
-                   ? 1
-                   : stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes));
+    decideSide(
+        contact, *edge1, *edge2,
+        contact.variant == CouplingKind::interpolation ? 1 : stiffnessRatio(scene, side1, side2, meshes));
   }
 }
 
@@ -127,10 +127,11 @@ void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& me
         length += (mesh.vertices[to] - mesh.vertices[from]).norm();
     return length / (3 * static_cast<double>(triangles.size()));
   };
-  for (ContactDescription& contact : scene.contacts)
-    if (!contact.sidesGiven && contact.choice.empty())
-      decideSide(contact, edgeOf(contact.nonmortar), edgeOf(contact.mortar),
-                 young(scene, contact.nonmortar) / young(scene, contact.mortar));
+  for (ContactDescription& contact : scene.contacts) {
+    if (contact.nonmortarSide) continue;
+    const auto& [side1, side2] = contact.sides;
+    decideSide(contact, edgeOf(side1), edgeOf(side2), young(scene, side1) / young(scene, side2));
+  }
 }
 
 std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
@@ -141,13 +142,13 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
   const auto edgesOf = [&](const SideDescription& side) {
     return meanEdge(scene, side, meshes).has_value() ? meshes[bodyIndex(scene, side.body)] : nullptr;
   };
-  const TriangleMesh* nonmortar = edgesOf(contact.nonmortar);
-  const TriangleMesh* mortar = edgesOf(contact.mortar);
+  const TriangleMesh* nonmortar = edgesOf(contact.nonmortar());
+  const TriangleMesh* mortar = edgesOf(contact.mortar());
   if (nonmortar == nullptr || mortar == nullptr || contact.variant == CouplingKind::interpolation)
     return std::nullopt;
-  const double edges = edgeRatio(*nonmortar, contact.nonmortar.label, *mortar, contact.mortar.label);
+  const double edges = edgeRatio(*nonmortar, contact.nonmortar().label, *mortar, contact.mortar().label);
   const double nodes = edges / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
-  const double stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
+  const double stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
   const auto beyond = [&](const auto& limit) { return nodes > limit[0] && nodes * stiffness > limit[1]; };
   if (beyond(limits[0]) || beyond(limits[1]) || (scene.degree == 1 && beyond(limits[2])))
     return Alternation{edges, stiffness};

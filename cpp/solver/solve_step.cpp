@@ -58,13 +58,8 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
   constexpr int longWalk = 1500;
   const SolverOptions& options = system.options();
   const Step step = system.step(state0, data);
-  if (options.reduce && data.startSolved) {
-    Iterate resting;
-    if (StepOutcome outcome = rest(system, step, resting); outcome.converged()) {
-      guess = std::move(resting);
-      return outcome;
-    }
-  }
+  if (options.reduce && data.startSolved)
+    if (StepOutcome outcome = rest(system, step, guess); outcome.converged()) return outcome;
   if (options.method == Method::penaltyDuality) return penaltyDuality(system, step, guess);
 
   NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};

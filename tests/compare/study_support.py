@@ -1,5 +1,6 @@
 """What the tests of mortier study share; its modules can be imported after this one."""
 import csv
+import os
 import sys
 
 from support import ROOT, InFolder, mortier
@@ -28,8 +29,10 @@ class StudyTest(InFolder):
         self.path, self.out = self.folder / "study.toml", self.folder / "out"
 
     def study(self, *options, code=0):
-        """mortier study on the study of this test: what it prints, and what it tells."""
-        done = mortier("study", self.path, "--out", self.out, *options, cwd=self.folder, timeout=600)
+        """mortier study on the study of this test: what it prints. Its runs are those of the same program,
+        whatever the environment names."""
+        done = mortier("study", self.path, "--out", self.out, *options, cwd=self.folder, timeout=600,
+                       env={**os.environ, "MORTIER": "no such program"})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 

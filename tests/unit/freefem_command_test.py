@@ -85,6 +85,13 @@ class Script(support.OfTwoBlocks):
                               "macro loads1 + simpson(1, 3, (", "\n".join(text))
                 self.assertIn(f"({freefem})*v2) //", "\n".join(text))
 
+    def test_names_of_files_have_every_printable_character(self):
+        for mark in " ~!'":
+            with self.subTest(mark):
+                name = f"up{mark}.mesh"
+                self.write(self.read("upper.mesh"), name)
+                self.assertIn(f'string meshFile1 = "{name}";', self.script(f"body.upper.mesh={name}"))
+
     def test_what_is_not_known(self):
         for setting, message in (
                 ("time.scheme=sdirk2", "scene.toml: scheme = sdirk2, expected backward-euler"),

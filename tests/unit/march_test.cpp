@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "material/stress.h"
+#include "time/measure.h"
 #include "unit/pulled_square.h"
 
 namespace mortier::march_test {
@@ -206,6 +207,14 @@ TEST(March, goesOnFromWhereAnObserverLeftIt) {
     EXPECT_EQ(rest.factorisations, whole.report.factorisations);
     EXPECT_EQ(rest.timeError, whole.report.timeError);
   }
+}
+
+TEST(March, rowsThatJoinAndLeaveTheActiveSetsAreCounted) {
+  StepReport report;
+  compareActive({{1, 0, 1, 0}, {0, 0}}, {{1, 1, 0, 0}, {1, 1}}, report);
+  EXPECT_EQ(report.active, 4);
+  EXPECT_EQ(report.joined, 3);
+  EXPECT_EQ(report.left, 1);
 }
 
 TEST(March, theInitialStateIsUndeformedAndStepZeroHasWhatIsPrescribed) {

@@ -8,6 +8,7 @@
 #include "material/perzyna.h"
 #include "mesh/generate.h"
 #include "time/march.h"
+#include "time/mean_pressure.h"
 
 namespace mortier::quantity_test {
 
@@ -229,6 +230,27 @@ TEST(Quantity, meanOnACurveIsByItsLength) {
   Point found = Point::Zero();
   for (const auto& [node, weight] : meanAt(mesh, nodes, {0.5, 0.4999})) found += weight * nodes.places[node];
   EXPECT_LT((found - Point(0.5, 0.4999)).norm(), 1e-12);
+}
+
+// Two triangles that meet on a quarter of a circle: the mean of a pressure of 1 is 1, over the curve and not
+// over the chord.
+TEST(Quantity, meanPressureOnACurveIsByItsLength) {
+  Model model;
+  for (const double far : {0.0, 2.0}) {
+    TriangleMesh mesh;
+    mesh.vertices = {{far, far}, {1, 0}, {0, 1}};
+    mesh.triangles = {far == 0 ? std::array{0, 1, 2} : std::array{0, 2, 1}};
+    mesh.regions = {0};
+    mesh.boundaryEdges = {far == 0 ? std::array{1, 2} : std::array{2, 1}};
+    mesh.boundaryLabels = {1};
+    mesh.edgeMiddles = {Point(std::sqrt(0.5), std::sqrt(0.5))};
+    model.bodies.emplace_back(far == 0 ? "disc" : "round it", mesh, elasticMaterial({1, 0}), Conditions{}, 2);
+  }
+  addInterface(model, {{0, 1}, {1, 1}, CouplingKind::weighted});
+  const Vector force = model.interfaces[0].mass() * Vector::Ones(model.interfaces[0].rows());
+  EXPECT_NEAR(force.sum(), M_PI / 2, 0.01);
+  const LinePart whole(boundaryLine(model.bodies[0].mesh(), 1));
+  EXPECT_NEAR(meanPressureShares(model, 0, 1, whole)[0].dot(force), 1, 0.005);
 }
 
 }  // namespace mortier::quantity_test

@@ -185,6 +185,20 @@ TEST(Summary, hasItsKeys) {
   EXPECT_EQ(json["triangles"], 8);
 }
 
+TEST(Summary, hasTheStepsThatWerePlannedOrTheToleranceThatChoseThem) {
+  Blocks blocks;
+  blocks.facts.plannedSteps = 7;
+  const auto written = [&] {
+    return nlohmann::json::parse(
+        summaryText("summary", blocks.facts, blocks.model, {blocks.state, {}, {}, blocks.accuracy()}));
+  };
+  EXPECT_EQ(written()["planned_steps"], 7);
+  EXPECT_FALSE(written().contains("tolerance"));
+  blocks.facts.tolerance = 1e-3;
+  EXPECT_EQ(written()["tolerance"], 1e-3);
+  EXPECT_FALSE(written().contains("planned_steps"));
+}
+
 TEST(Summary, thatIsNotFiniteIsRefused) {
   const Blocks blocks;
   RunReport report;

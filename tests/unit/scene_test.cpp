@@ -11,49 +11,9 @@
 #include "scene/keys.h"
 #include "scene/load_courses.h"
 #include "scene/readers.h"
-#include "unit/messages.h"
-#include "unit/scene_folder.h"
+#include "unit/two_blocks_scene.h"
 
 namespace mortier::scene_test {
-
-const std::string twoBlocks = R"toml(title = "two blocks"
-[[body]]
-name = "upper"
-mesh = "upper.mesh"
-material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1, projection = "elasticity" }
-force = { y = "-9.81*t" }
-[[body.boundary]]
-label = 4
-ux = 0
-[[body.boundary]]
-label = 3
-ty = "-10*t"
-[[body]]
-name = "lower"
-mesh = "lower.mesh"
-material = { young = 2e11, poisson = 0.25 }
-boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.5*x*(t > 1)" } ]
-)toml" + std::string(contactOfTwoBlocks) +
-                              "steps = 20\n";
-
-/// With two meshes and a scene.
-class SceneFiles : public SceneFolder {
- protected:
-  SceneFiles() : SceneFolder("scene_test") {
-    writeMedit(crissCrossMesh({{0, 0}, {1, 1}, 2, 2}), folder + "/upper.mesh");
-    writeMedit(crissCrossMesh({{0, -1}, {1, 0}, 3, 3}), folder + "/lower.mesh");
-    write(twoBlocks);
-  }
-
-  /// The message of a scene that is wrong, without the folder.
-  [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
-    std::string text = messageOf([&] { return modelOf(readScene(path(), settings)); });
-    for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
-      text.erase(at, folder.size() + 1);
-    }
-    return text;
-  }
-};
 
 TEST_F(SceneFiles, readsEveryKey) {
   const SceneDescription scene = readScene(path());
@@ -77,7 +37,7 @@ TEST_F(SceneFiles, readsEveryKey) {
   EXPECT_EQ(scene.bodies[1].conditions[1].component, 1);
   ASSERT_EQ(scene.contacts.size(), 1u);
   EXPECT_EQ(scene.contacts[0].variant, CouplingKind::mortar);
-  EXPECT_EQ(scene.contacts[0].mortar.label, 3);
+  EXPECT_EQ(scene.contacts[0].mortar().label, 3);
   EXPECT_EQ(scene.time.steps, 20);
   EXPECT_EQ(scene.every, 0);
 }
@@ -89,113 +49,6 @@ TEST_F(SceneFiles, buildsTheModel) {
   EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, 1);
   EXPECT_EQ(model.interfaces[0].pair().mortar.label, 1);
   EXPECT_EQ(model.bodies[0].mesh().triangles.size(), 16u);
-}
-
-// Decided once: the model and the description that reports read name the same side, swapped or not.
-TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
-  const std::string text = twoBlocks;
-  const size_t begin = text.find("nonmortar");
-  const size_t end = text.find("[time]");
-  const std::string upper = "{ body = \"upper\", label = 1 }";
-  const std::string lower = "{ body = \"lower\", label = 3 }";
-  for (const std::string& sides : {upper + ", " + lower, lower + ", " + upper})
-    for (const bool swapped : {false, true}) {
-      write(text.substr(0, begin) + "sides = [" + sides + "]\nswap = " + (swapped ? "true" : "false") + "\n" +
-            text.substr(end));
-      ResolvedScene resolved = resolveScene(readScene(path()));
-      const SceneDescription& scene = resolved.description;
-      const int nonmortar = swapped ? 0 : 1;
-      EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
-      EXPECT_EQ(scene.contacts[0].choice,
-                swapped ? "nonmortar is the coarser mesh (swap)" : "nonmortar is the finer mesh");
-      EXPECT_EQ(buildModel(resolved).interfaces[0].pair().nonmortar.body, nonmortar);
-      ResolvedScene again = resolveScene(scene);
-      EXPECT_EQ(again.description.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
-      EXPECT_EQ(buildModel(again).interfaces[0].pair().nonmortar.body, nonmortar);
-    }
-}
-
-// The lower mesh is the finer one, the upper body the stiffer one as it stands.
-TEST_F(SceneFiles, pressuresDoNotAlternateByDefault) {
-  const auto contact = [&](const std::vector<std::string>& settings) {
-    return resolveScene(readScene(path(), settings)).description.contacts[0];
-  };
-  const std::string stiff = "body.lower.material.young=1e12";
-  EXPECT_EQ(contact({"contact.swap=true"}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({stiff}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff}).variant, CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", stiff}).choice,
-            "fewer nodes as its edges are 1.5 times as short and its body is 3.3 times as stiff");
-  const std::string fine = "body.lower.mesh={shape=\"rectangle\", lower=[0, -1], upper=[1, 0], cells=[4, 4]}";
-  EXPECT_EQ(contact({fine}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", fine}).variant, CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", fine, "body.lower.material.young=3e11"}).choice,
-            "fewer nodes as its edges are 2 times as short");
-  // A prescribed side is a wall: it follows no pressure, and the other body tells all nodes apart.
-  const std::string wall = "body.upper.boundary=[{label=1, uy=\"-t\"}]";
-  EXPECT_EQ(contact({"contact.swap=true", fine, wall}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, wall}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", fine, "body.upper.boundary=[{label=1, ux=0}]"}).variant,
-            CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, "contact.variant=mortar"}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, "accuracy.energy=0.1"}).variant, CouplingKind::mortar);
-  const std::vector<std::string> free{"contact.nonmortar=", "contact.mortar=",
-                                      "contact.sides=[{body=\"upper\", label=1}, {body=\"lower\", label=3}]"};
-  const auto nonmortar = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), free.begin(), free.end());
-    return contact(more).nonmortar.body;
-  };
-  EXPECT_EQ(nonmortar({}), "lower");
-  EXPECT_EQ(nonmortar({"body.lower.material.young=1e14"}), "upper");
-  EXPECT_EQ(nonmortar({"body.lower.boundary=[{label=3, uy=0}]"}), "upper");
-  EXPECT_EQ(nonmortar({stiff, "contact.variant=interpolation"}), "lower");
-}
-
-// Names of conditions, regions and sides become the numbers of the mesh; what it does not have,
-// one that no mesh has.
-TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
-  SceneDescription scene = readScene(path());
-  TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});
-  mesh.labelNames = {{"base", 1}, {"top", 3}};
-  mesh.regionNames = {{"core", 7}};
-  scene.bodies[0].conditions[1].labelName = "top";
-  scene.bodies[0].conditions[0].labelName = "topp";
-  scene.bodies[0].regions = {RegionDescription{0, "core", {}, {}, ""}};
-  scene.contacts[0].nonmortar.labelName = "base";
-  resolveWhatCanBe(scene, {&mesh, nullptr});
-  EXPECT_EQ(scene.bodies[0].conditions[1].label, 3);
-  EXPECT_LT(scene.bodies[0].conditions[0].label, 0);
-  EXPECT_EQ(scene.bodies[0].regions[0].label, 7);
-  EXPECT_EQ(scene.contacts[0].nonmortar.label, 1);
-}
-
-// The upper mesh is the coarser one.
-TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
-  const auto model = [&](const std::string& contact) {
-    const std::string text = twoBlocks;
-    const size_t begin = text.find("nonmortar");
-    const size_t end = text.find("[time]");
-    write(text.substr(0, begin) + contact + "\n" + text.substr(end));
-    return modelOf(readScene(path()));
-  };
-  const std::string upper = "{ body = \"upper\", label = 1 }";
-  const std::string lower = "{ body = \"lower\", label = 3 }";
-  for (const std::string& sides : {upper + ", " + lower, lower + ", " + upper})
-    EXPECT_EQ(model("sides = [" + sides + "]").interfaces[0].pair().nonmortar.body, 1);
-  const std::string both = "nonmortar = " + upper + "\nmortar = " + lower + "\n";
-  const ContactInterface given = model(both + "gap = \"0.25*x^2\"").interfaces[0];
-  EXPECT_LE((given.initialDistance() - Vector{{0, 0.0625, 0.25}}).cwiseAbs().maxCoeff(), 1e-16);
-  const ContactInterface alongY = model(both + "gap = \"0.5 + y\"").interfaces[0];  // the line is y = 0
-  EXPECT_LE((alongY.initialDistance() - Vector::Constant(3, 0.5)).cwiseAbs().maxCoeff(), 1e-15);
-  EXPECT_EQ(model(both + "initial = \"close\"").interfaces[0].initialDistance().cwiseAbs().maxCoeff(), 0);
-  const auto refused = [&](const std::string& contact) { return messageOf([&] { return model(contact); }); };
-  EXPECT_NE(refused(both + "sides = [" + upper + ", " + lower + "]").find("beside sides"), std::string::npos);
-  EXPECT_NE(refused("sides = [" + upper + "]").find("expected two tables"), std::string::npos);
-  EXPECT_NE(refused(both + "gap = 1\ninitial = \"close\"").find("gap beside initial"), std::string::npos);
-  EXPECT_NE(refused(both + "gap = \"1/x\"").find("gap = "), std::string::npos);
-  for (const std::string inTime : {"\"0.05*t\"", "\"x + 0*t\"", "{ time = [0, 1], value = [0, 1] }"})
-    EXPECT_TRUE(model(both + "gap = " + inTime).interfaces[0].distanceMoves()) << inTime;
-  EXPECT_NE(refused(both + "initial = \"open\"").find("as-meshed, close, reject"), std::string::npos);
 }
 
 TEST_F(SceneFiles, overridesByNameByLabelByIndexAndForAll) {
