@@ -38,7 +38,7 @@ class AdaptedMeshes {
   /// Components of displacements of all bodies together.
   [[nodiscard]] int unknowns() const;
   /// Boundaries whose curves are not known, and vertices that could not be put onto theirs:
-  /// what the estimate cannot see.
+  /// what the estimate does not contain.
   [[nodiscard]] const std::vector<std::string>& polygons(size_t body) const { return polygons_[body]; }
   [[nodiscard]] int offCurve() const { return offCurve_; }
 
@@ -104,7 +104,7 @@ struct KnownCurves {
 
 KnownCurves curvesBehind(const TriangleMesh& mesh);
 
-/// The same in space, as contact sees it (contact/surface.h); what has no label is a side of its own.
+/// The same in space, by the sides of contact (contact/surface.h); what has no label is a side of its own.
 /// Surfaces inside, where two regions meet, keep their triangles.
 CurvedFaces curvesBehind(TetrahedronMesh mesh, const SpaceHeld& held);
 

@@ -28,7 +28,7 @@ double leastOf(double asked) {
   return leastShare * (1 - 2.5 * (std::clamp(asked, small, large) - small));
 }
 
-/// The supports of a body in space, as contact asks for them.
+/// The supports of a body in space, as contact takes them.
 Body heldBody(const BodyDescription& description, TetrahedronMesh mesh) {
   SpaceConditions conditions;
   for (const ConditionDescription& c : description.conditions)

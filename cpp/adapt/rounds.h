@@ -83,7 +83,7 @@ class Rounds {
   /// The scene of the round to come.
   [[nodiscard]] ResolvedScene scene() const;
   enum class Verdict { goOn, reached, notReached };
-  /// \param seconds  wall time of all so far. Where it goes on, the meshes of the next round are made.
+  /// \param seconds  wall time of all so far. Where another round follows, its meshes are made.
   Verdict judge(const RoundResult& result, double seconds);
   /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }

@@ -44,7 +44,7 @@ inline bool inUninterruptibleCall() {
   return interruption::uninterruptibleCalls > 0;
 }
 
-/// While it lives a signal waits for the end of such calls: a run is complete and wants to be kept.
+/// While it lives a signal waits for the end of such calls: a run is complete, and its result is to be kept.
 struct KeepsResult {
   KeepsResult() { interruption::uninterruptibleCalls -= many; }
   ~KeepsResult() { interruption::uninterruptibleCalls += many; }

@@ -75,7 +75,7 @@ class Ranks {
   static Ranks* all_;
 };
 
-/// The first rank goes on alone while it lives; the others wait for the end.
+/// The first rank works alone while it lives; the others wait for the end.
 class FirstRankOnly {
  public:
   FirstRankOnly() : others_(Ranks::all()) { Ranks::use(one_); }
@@ -100,7 +100,7 @@ std::string textOfFirst(Ranks& ranks, const std::string& text);
 /// The number of the first rank.
 double numberOfFirst(Ranks& ranks, double number);
 
-// Data that are wrong where one rank alone sees it.
+// Data that are wrong where one rank alone detects it.
 
 /// Calls work(). A DatumError of any rank is thrown by all. Collective.
 template <class Work>

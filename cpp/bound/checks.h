@@ -12,7 +12,7 @@
 
 namespace mortier {
 
-/// What is left over of the forces and couples of a triangle, of the divergence of its parts, or of a given
+/// The remainder of the forces and couples of a triangle, of the divergence of its parts, or of a given
 /// traction; and the largest moment of a side [N/m].
 struct Imbalance {
   double worst = 0;

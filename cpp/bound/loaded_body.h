@@ -137,7 +137,8 @@ class LoadedBody {
   Matrix modes_;
   std::vector<Stress> stress_;  ///< s, that of the finite elements
   BodyData data_;
-  bool flows_ = false;   ///< its tangents may differ by many orders: iterations would not see the stiff part
+  bool flows_ =
+      false;  ///< its tangents may differ by many orders: iterations would not resolve the stiff part
   bool coarse_ = false;  ///< the model is
   SideMoments moments_;
   Vector energies_;

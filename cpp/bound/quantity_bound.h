@@ -25,7 +25,7 @@
 
 namespace mortier {
 
-/// What a quantity asks of z and t.
+/// The conditions of a quantity on z and t.
 struct Goal {
   std::vector<Vector> held;   ///< boundary values of z by bodies (dofs)
   std::vector<Vector> loads;  ///< l by bodies (dofs)

@@ -79,7 +79,7 @@ class VertexBalance {
       changes_.push_back({in, sign, sum});
       mean += weight * sum;
       weights += weight;
-      sum -= leftOver(triangle, vertex);  // what is taken out by the next side as it sees it
+      sum -= leftOver(triangle, vertex);  // what is taken out by the next side by its own moments
       const int out = sides_.of(triangle, (i + 2) % 3);
       const auto& behind = sides_.all()[out].triangles;
       triangle = behind[0] == triangle ? behind[1] : behind[0];

@@ -83,7 +83,7 @@ SideMoments balancedMoments(const TriangleMesh& mesh, const Sides& sides, const 
 /// Of a body load on a triangle (CompositeTriangle).
 Eigen::Matrix<double, 2, 3> nodalForces(const TriangleMesh& mesh, int triangle, const BodyLoad& load);
 
-/// The moments of the sides of a triangle as it sees them.
+/// The moments of the sides of a triangle, with its signs.
 Moments momentsOf(const Sides& sides, const SideMoments& moments, int triangle);
 
 }  // namespace mortier

@@ -53,8 +53,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   return facts;
 }
 
-/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their
-/// error.
+/// Beside the times of the scene, the courses of the data for steps that are chosen by their error.
 void lookAhead(SceneDescription& scene, const Model& model) {
   if (!scene.time.controlled()) return;
   LoadCourses loads = loadCourses(scene, model);
@@ -102,7 +101,7 @@ void Attempt::share() {
 
 namespace {
 
-/// What a bound needs to know of a quantity.
+/// A quantity as a bound takes it.
 Functional functionalOf(const Quantity& quantity, const std::optional<Point>& point) {
   using Kind = Functional::Kind;
   Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction

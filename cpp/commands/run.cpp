@@ -73,7 +73,7 @@ std::string whereToLook(const Attempt& attempt) {
          (driving.empty() ? "" : "; what drives the step is " + driving);
 }
 
-/// The rounds of a scene that asks for an accuracy.
+/// The rounds of a scene with an accuracy.
 std::optional<Rounds> roundsOf(const ResolvedScene& scene) {
   if (!(scene.description.accuracy.asked() > 0)) return std::nullopt;
   return Rounds(scene);

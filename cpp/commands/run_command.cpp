@@ -51,7 +51,7 @@ void warnOf(const Faults& faults) {
     if (fault.kind->severity == Severity::warning) warn(fault.place + ": " + withRemedy(fault));
 }
 
-/// Goes to the folder in which the run was begun, and asks for what it was asked for.
+/// Goes to the folder in which the run was begun, with the options of that run.
 void repeatRequest(const RunIdentity& stored, RunCommand& command) {
   std::error_code error;
   command.restart = fs::absolute(command.restart).string();

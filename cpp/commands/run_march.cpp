@@ -91,10 +91,10 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     const bool restarted = report.step == 0 && memory.controller.trial > 1;
     const bool kept = scene.every > 0 && report.step % scene.every == 0;
     const bool mayBeSaved = !rounds_ && report.step > 0 && state.time < scene.time.end;
-    // What the first rank asks of all of them.
+    // What the first rank decides for all of them.
     const auto asked = [&](bool own) { return inParts ? numberOfFirst(Ranks::all(), own ? 1 : 0) > 0 : own; };
     if (restarted) {
-      // The checkpoint before the files are cut: one that knows them as they were would be of no use.
+      // The checkpoint before the files are cut: one with their old lengths would be of no use.
       rows_.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
       last = report;
       accuracySoFar = {};
@@ -104,7 +104,7 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
       removeFields(temporary_, written, empty);
       if (toFiles) files.emplace(temporary_, model, error, empty);
     }
-    if (asked(kept || accuracies.asks(report, kept))) {
+    if (asked(kept || accuracies.needs(report, kept))) {
       {
         std::optional<State> space;
         const State& at = whole(state, space);

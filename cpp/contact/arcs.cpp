@@ -99,7 +99,7 @@ std::vector<Arc> fittedArcs(const std::vector<Point>& points, bool closed) {
     if (end > begin) {
       set(begin, end, arcThrough(points, begin, end, false));
     } else {
-      // What is left of a run that ends here, where it is too short to begin one.
+      // The end of a run, where it is too short to begin one.
       const int first = std::max(0, begin + 1 - (fewest - 1));
       if (const Arc arc =
               begin + 1 - first == fewest - 1 ? arcThrough(points, first, begin + 1, false) : Arc{};

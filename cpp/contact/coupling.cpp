@@ -68,26 +68,26 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
   atGaussPoints(
       part, mortar, rows,
       [&](const Segment& segment, const EdgeNodes& row, double s, const EdgeValues& chi, double weight) {
-        const Sight sight = see(part, mortar, segment, s);
-        const double g0 = distance(segment.nonmortar, s, sight);
+        const FacingPair facing = facingPair(part, mortar, segment, s);
+        const double g0 = distance(segment.nonmortar, s, facing);
         const EdgeNodes nodes = part.nodesOf(segment.nonmortar);
         const EdgeNodes across = mortar.nodesOf(segment.mortar);
         const double depth =
             axisymmetric ? circumference(part.at(segment.nonmortar, part.partAt(segment.nonmortar, s))) : 1;
         for (Eigen::Index i = 0; i < row.size(); ++i) {
           if (row[i] < 0) continue;
-          const double w = weight * sight.stretch * chi[i] * depth;
-          result.lengths[row[i]] += weight * sight.stretch * chi[i];
+          const double w = weight * facing.stretch * chi[i] * depth;
+          result.lengths[row[i]] += weight * facing.stretch * chi[i];
           for (Eigen::Index j = 0; j < row.size(); ++j)
             if (row[j] >= 0) result.mass.emplace_back(row[i], row[j], w * chi[j]);
           for (Eigen::Index k = 0; k < nodes.size(); ++k) {
-            Point value = sight.phi[k] * sight.normal;
+            Point value = facing.phi[k] * facing.normal;
             if (!own.empty() && row[k] >= 0) value -= chi[k] * own[row[k]];
             addEntries(row[i], nodes.segment(k, 1), EdgeValues::Constant(1, w), value, result.D);
           }
-          addEntries(row[i], across, -w * sight.psi, sight.normal, result.M);
+          addEntries(row[i], across, -w * facing.psi, facing.normal, result.M);
           for (Eigen::Index k = 0; k < nodes.size(); ++k)
-            result.N.emplace_back(row[i], nodes[k], w * sight.phi[k]);
+            result.N.emplace_back(row[i], nodes[k], w * facing.phi[k]);
           result.distance[row[i]] += w * g0;
           result.least[row[i]] = std::min(result.least[row[i]], g0);
         }
@@ -173,8 +173,8 @@ Sparse projected(const Sparse& Phi, const Sparse& B) {
 
 /// The projection of a distance is below a convex one by h^2/12 times its second derivative, and bodies that
 /// touch would press each other. It is moved up, by the same number at all rows, until none is below the
-/// least distance that its function sees; but by no more than twice the way to the distance at the node, so
-/// that kinks and steps move the rows beside them alone.
+/// least distance where its function is not 0; but by no more than twice the way to the distance at the
+/// node, so that kinks and steps move the rows beside them alone.
 Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
   const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
   return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
@@ -194,17 +194,17 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
                 double stiffness, const std::vector<char>& only) {
   const RowFunctions rows(kind, part, mortar, merged, stiffness, only);
   const Eigen::Index n = rows.count();
-  std::vector<Sighting> atRows;  // what their nodes see
-  std::vector<Point> own;        // directions there
+  std::vector<FacingNode> atRows;  // what their nodes face
+  std::vector<Point> own;          // directions there
   Triplets ownMotion;
   Vector distances(n);
   if (!hasMeans(kind))
     for (int i = 0; i < n; ++i) {
-      atRows.push_back(seeFrom(part, mortar, rows.nodes()[i]));
-      const auto& [sight, place] = atRows.back();
-      own.push_back(sight.normal);
+      atRows.push_back(facingOfNode(part, mortar, rows.nodes()[i]));
+      const auto& [facing, place] = atRows.back();
+      own.push_back(facing.normal);
       addEntries(i, EdgeNodes{{rows.nodes()[i]}}, EdgeValues::Ones(1), own.back(), ownMotion);
-      distances[i] = distance(place.nonmortar, place.begin, sight);
+      distances[i] = distance(place.nonmortar, place.begin, facing);
     }
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
@@ -223,11 +223,11 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   for (int i = 0; i < n; ++i) atNodes.emplace_back(i, rows.nodes()[i], 1);
   result.N = assembled(n, part.traceNodes(), hasMeans(kind) ? integrals.N : atNodes);
   if (kind == CouplingKind::interpolation) {
-    Triplets seen;
+    Triplets opposite;
     for (int i = 0; i < n; ++i)
-      addEntries(i, mortar.nodesOf(atRows[i].place.mortar), -atRows[i].sight.psi, atRows[i].sight.normal,
-                 seen);
-    result.C2 = matrix(mortar, seen);
+      addEntries(i, mortar.nodesOf(atRows[i].place.mortar), -atRows[i].facing.psi, atRows[i].facing.normal,
+                 opposite);
+    result.C2 = matrix(mortar, opposite);
   } else if (kind == CouplingKind::mortar) {
     constexpr Eigen::Index longLine = 512;
     const Factor mass(result.mass);

@@ -1,6 +1,7 @@
-// How a part of the nonmortar line sees the mortar line: rows of C, one per trace node with a condition.
+// The coupling of a part of the nonmortar line with the mortar line: one row of C per trace node that has a
+// condition.
 //
-// x1(s) sees the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump
+// x1(s) faces the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump
 // j(s) = n . (u1(x1) - u2(x2)), traces sum phi_k u1_k and sum psi_l u2_l of the elements,
 // and row functions chi_i,
 //
@@ -22,8 +23,8 @@
 // those of the mortar trace but for half an element (docs/theory.md; MorteX: Akula et al. 2019).
 // The ends keep their rows and stand for the mortar nodes within half a mortar element.
 //
-// The distance g0 is seen by the same rows. With mortar it is moved up where the projection of a convex
-// distance would be below the least one that a row function sees (coupling.cpp).
+// The distance g0 is taken by the same rows. With mortar it is moved up where the projection of a convex
+// distance would be below the least one where a row function is not 0 (coupling.cpp).
 //
 // Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
 // elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
@@ -69,7 +70,7 @@ struct Coupling {
   Eigen::SparseMatrix<double> mass;  ///< Phi, or w as a diagonal, rows x rows [m]
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
   Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
-  Vector distance;                   ///< g0, as the rows see it [m]
+  Vector distance;                   ///< g0, by rows [m]
   Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
   Vector lengths;                    ///< int chi ds, by rows [m]
   std::vector<NodeBetween> between;  ///< with `coarsened`: the other trace nodes
@@ -85,7 +86,7 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
   return hasMeans(kind) ? 1 : traceDegree;
 }
 
-/// \param distance  of the bodies, where x1(s) sees
+/// \param distance  of the bodies, where x1(s) faces
 /// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies
 /// within the overlap.
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface

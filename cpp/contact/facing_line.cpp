@@ -14,9 +14,9 @@ constexpr double leastFacing = 0.5;
 /// Abscissae closer to an end of the part than this part of the element there are on it.
 constexpr double sameEdgeEnd = 1e-9;
 /// Places on an element that differ by less are one.
-constexpr double sameSight = 4e-16;
+constexpr double samePart = 4e-16;
 
-/// The point of the part that sees x.
+/// The point of the part that faces x.
 struct Foot {
   double s = 0;
   Point normal = Point::Zero();
@@ -218,14 +218,14 @@ class Search {
 };
 
 /// The part of an element of the mortar line at which (y - x) x n = 0
-double partSeen(const FacingLine& line, int element, const Point& x, const Point& n) {
+double partFaced(const FacingLine& line, int element, const Point& x, const Point& n) {
   const Point& a = line.points[element];
   double xi = cross(x - a, n) / cross(line.points[element + 1] - a, n);
   if (!line.bent(element)) return xi;
   for (int k = 0; k < 20; ++k) {  // Newton's method
     const double by = cross(x - line.at(element, xi), n) / cross(line.tangentAt(element, xi), n);
     xi += by;
-    if (std::abs(by) <= sameSight) break;
+    if (std::abs(by) <= samePart) break;
   }
   return xi;
 }
@@ -290,61 +290,61 @@ FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar) {
   return Search(part, mortar).stretch();
 }
 
-Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s) {
+FacingPair facingPair(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s) {
   const int e = segment.nonmortar;
   const int j = segment.mortar;
   const FacingElement& across = mortar.geometry[j];
   const double here = part.partAt(e, s);
   const Point x = part.at(e, here);
-  Sight sight;
-  double seen = 0;
+  FacingPair facing;
+  double faced = 0;
   if (part.straight) {
-    sight.normal = part.normals.front();
-    seen = mortar.bent(j) ? partSeen(mortar, j, x, sight.normal) : mortar.partAt(j, s);
+    facing.normal = part.normals.front();
+    faced = mortar.bent(j) ? partFaced(mortar, j, x, facing.normal) : mortar.partAt(j, s);
   } else {
     const Point n1 = part.normalAt(e, s);
     const double curvature1 = part.curvatureAt(e, s);
     const auto between = [](const auto& ends, double xi) { return (1 - xi) * ends[0] + xi * ends[1]; };
-    // The direction depends on the point that is seen, hardly where the lines are close. Whatever is left of
+    // The direction depends on the point that is faced, hardly where the lines are close. Whatever is left of
     // the iteration, the point is on the line along the direction in the end.
-    seen = partSeen(mortar, j, x, n1);
+    faced = partFaced(mortar, j, x, n1);
     for (int k = 0; k < 50; ++k) {
-      const double xi = std::clamp(seen, 0.0, 1.0);
+      const double xi = std::clamp(faced, 0.0, 1.0);
       const Point n2 = between(across.normals, xi).normalized();
       // At the end of a stretch rounding may turn the part away: its normal lies along the other line there.
-      sight.normal = n1.dot(n2) < 0 ? directionOf(n1, curvature1, n2, between(across.curvatures, xi),
-                                                  between(across.smooth, xi))
-                                    : Point(-n2);
-      const double before = seen;
-      seen = partSeen(mortar, j, x, sight.normal);
-      if (std::abs(seen - before) <= sameSight) break;
+      facing.normal = n1.dot(n2) < 0 ? directionOf(n1, curvature1, n2, between(across.curvatures, xi),
+                                                   between(across.smooth, xi))
+                                     : Point(-n2);
+      const double before = faced;
+      faced = partFaced(mortar, j, x, facing.normal);
+      if (std::abs(faced - before) <= samePart) break;
     }
   }
-  sight.phi = edgeShapes(part.degree(), here);
-  sight.psi = edgeShapes(mortar.degree(), seen);
-  const Point y = mortar.at(j, seen);
-  sight.distance = (y - x).dot(sight.normal);
-  if (part.bent(e)) sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
-  sight.bulge +=
-      bulgeOf(part.drawn.get(), e, here, part.arcs[e], {part.points[e], part.points[e + 1]}, x, sight.normal);
-  sight.bulge += bulgeOf(across.drawn.get(), across.inPart, 1 - seen, across.arc,
-                         {mortar.points[j + 1], mortar.points[j]}, y, -sight.normal);
-  return sight;
+  facing.phi = edgeShapes(part.degree(), here);
+  facing.psi = edgeShapes(mortar.degree(), faced);
+  const Point y = mortar.at(j, faced);
+  facing.distance = (y - x).dot(facing.normal);
+  if (part.bent(e)) facing.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
+  facing.bulge += bulgeOf(part.drawn.get(), e, here, part.arcs[e], {part.points[e], part.points[e + 1]}, x,
+                          facing.normal);
+  facing.bulge += bulgeOf(across.drawn.get(), across.inPart, 1 - faced, across.arc,
+                          {mortar.points[j + 1], mortar.points[j]}, y, -facing.normal);
+  return facing;
 }
 
-Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node) {
+FacingNode facingOfNode(const SmoothPart& part, const FacingLine& mortar, int node) {
   const auto [element, s] = placeOf(part, node);
   // The element of the mortar line that holds s, the end elements beyond the ends.
   const auto after = std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s);
   const Segment place{element, static_cast<int>(after - mortar.s.begin()) - 1, s, s};
-  return {see(part, mortar, place, s), place};
+  return {facingPair(part, mortar, place, s), place};
 }
 
 Point directionAt(const SmoothPart& part, const FacingLine& mortar, int node) {
   const auto [element, s] = placeOf(part, node);
   if (part.straight) return part.normals.front();
   if (mortar.empty() || s < mortar.s.front() || s > mortar.s.back()) return part.normalAt(element, s);
-  return seeFrom(part, mortar, node).sight.normal;
+  return facingOfNode(part, mortar, node).facing.normal;
 }
 
 }  // namespace mortier

@@ -1,5 +1,5 @@
-// The pairing of a part of the nonmortar line with the mortar line. A point x1(s) of the part faces (code:
-// sees) the point x2 of the mortar line in the contact direction n,
+// The pairing of a part of the nonmortar line with the mortar line. A point x1(s) of the part faces the
+// point x2 of the mortar line in the contact direction n,
 //
 //   (x1(s) - x2) x n = 0,      n ~ R1 n1(s) - R2 n2(x2),
 //
@@ -43,7 +43,7 @@ struct MortarLine : ElementLine {
   ElementTree tree;
 };
 
-/// What a part sees of it: abscissae are those of the part. A node may come twice.
+/// The stretch of it that faces a part: abscissae are those of the part. A node may come twice.
 struct FacingLine : ElementLine {
   std::vector<FacingElement> geometry;
 
@@ -55,9 +55,9 @@ struct FacingLine : ElementLine {
 /// nothing faces it.
 FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar);
 
-/// What x1(s) sees: a pair of points, and the direction of the line through both, so that opposite forces
+/// x1(s) and the point that it faces, and the direction of the line through both, so that opposite forces
 /// along it have no moment.
-struct Sight {
+struct FacingPair {
   EdgeValues phi;       ///< shape functions of the nonmortar element at x1
   EdgeValues psi;       ///< of the mortar element at x2; linear in s where the part is straight
   Point normal;         ///< direction n, of length one
@@ -67,24 +67,24 @@ struct Sight {
 };
 
 /// Distance g0 of the bodies at a place of a nonmortar element [m].
-using DistanceAt = std::function<double(int element, double s, const Sight& sight)>;
+using DistanceAt = std::function<double(int element, double s, const FacingPair& facing)>;
 
 /// As meshed, of the curves that the lines stand for.
-inline double distanceOfCurves(int /*element*/, double /*s*/, const Sight& sight) {
-  return sight.distance - sight.bulge;
+inline double distanceOfCurves(int /*element*/, double /*s*/, const FacingPair& facing) {
+  return facing.distance - facing.bulge;
 }
 
-Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s);
+FacingPair facingPair(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s);
 
-/// What a node of the part sees (`ElementLine::nodesOf`), and from which elements.
-struct Sighting {
-  Sight sight;
+/// A node of the part (`ElementLine::nodesOf`) with the point that it faces, and their elements.
+struct FacingNode {
+  FacingPair facing;
   Segment place;
 };
 
-Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node);
+FacingNode facingOfNode(const SmoothPart& part, const FacingLine& mortar, int node);
 
-/// The direction of contact at a node of the part; its normal where it sees nothing.
+/// The direction of contact at a node of the part; its normal where it faces nothing.
 Point directionAt(const SmoothPart& part, const FacingLine& mortar, int node);
 
 }  // namespace mortier

@@ -107,7 +107,7 @@ ConstraintRows turned(const ConstraintRows& rows) {
   return assembled<ConstraintRows>(rows.rows(), rows.cols(), entries);
 }
 
-/// \throws InputError when the distances are not such as the user wants them.
+/// \throws InputError when the distances are not as `initial` demands.
 void requireAllowed(double least, double most, InitialGap initial, double shorter, const std::string& names) {
   const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
     throw InputError(names + what + digits(by, 6) + " as meshed, expected " + expected);
@@ -194,13 +194,13 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     const SmoothPart& part = parts[k];
     const std::vector<char> merged = mergedNodes(part, facing[k], pair_.coupling, options);
     heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
-    const DistanceAt distance = [&](int element, double s, const Sight& sight) {
+    const DistanceAt distance = [&](int element, double s, const FacingPair& pair) {
       if (!options.gap)
-        return options.initial == InitialGap::close ? 0.0 : distanceOfCurves(element, s, sight);
+        return options.initial == InitialGap::close ? 0.0 : distanceOfCurves(element, s, pair);
       const EdgeNodes nodes = part.nodesOf(element);
       double gap = 0;
       for (Eigen::Index j = 0; j < nodes.size(); ++j)
-        gap += sight.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
+        gap += pair.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
       return gap;
     };
     Coupling coupling =

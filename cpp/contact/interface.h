@@ -6,7 +6,7 @@
 // One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent
 // part at a corner), along the direction of contact there: coupling.h, facing_line.h. g0 is the distance
 // along it of the curves that the two lines stand for (arcs.h), of the lines as meshed where these are not
-// known. The solver sees the two sparse matrices and g0, nothing of geometry.
+// known. The solver has the two sparse matrices and g0, nothing of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
 // no row of its own: its row function goes to the neighbour, so that Dirichlet conditions may reach to the

@@ -76,9 +76,9 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
     const EdgeNodes nonmortarNodes = numbers(part, segment.nonmortar);
     const EdgeNodes mortarNodes = numbers(mortar, segment.mortar);
     const auto place = [&](double s) {
-      const Sight sight = see(part, mortar, segment, s);
-      return Place{nonmortarNodes, mortarNodes,  sight.phi,
-                   sight.psi,      sight.normal, distance(segment.nonmortar, s, sight)};
+      const FacingPair facing = facingPair(part, mortar, segment, s);
+      return Place{nonmortarNodes, mortarNodes,   facing.phi,
+                   facing.psi,     facing.normal, distance(segment.nonmortar, s, facing)};
     };
     // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
     const double length = segment.end - segment.begin;

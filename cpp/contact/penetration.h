@@ -50,7 +50,7 @@ class PenetrationIntegral {
   [[nodiscard]] std::vector<RefinedPiece> pieces() const;
 
  private:
-  /// A point of the common refinement, seen from one of its segments.
+  /// A point of the common refinement, on one of its segments.
   struct Place {
     EdgeNodes nonmortar, mortar;  ///< node numbers of the two elements
     EdgeValues phi, psi;          ///< their shape functions there

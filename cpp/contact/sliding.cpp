@@ -30,8 +30,8 @@ struct Polyline {
     closed = points.size() > 2 && (points.back() - points.front()).norm() <= 1.5 * longest;
   }
 
-  /// How far it goes on along `way` from where a point sees it along n; from its nearest vertex where it is
-  /// not seen.
+  /// How far it extends along `way` from where a point faces it along n; from its nearest vertex where no
+  /// point does.
   [[nodiscard]] double room(const Point& x, const Point& n, const Point& way) const {
     double least = std::numeric_limits<double>::infinity();
     double nearest = least;

@@ -2,7 +2,7 @@
 //
 //   slip = T u,   T: the rows of C with every direction turned by +90 degrees (interface.h).
 //
-// Slips are taken as small: nodes go on to see what they faced as meshed. A slip of a part of an edge shows
+// Slips are taken as small: nodes face what they faced as meshed. A slip of a part of an edge shows
 // in nodal forces; past the end of the line that it touches a node would touch nothing.
 #pragma once
 

@@ -72,7 +72,7 @@ inline double sagitta(double length, double curvature) {
   return length * length * (curvature < 0 ? -curvature : curvature) / 8;
 }
 
-// A line of elements as contact sees it: places, abscissae, and the displacement trace on it.
+// A line of elements in contact: places, abscissae, and the displacement trace on it.
 //
 // An element runs between two vertices. Its trace is linear, or quadratic with a node in the middle: then the
 // element is straight, or bent through the place of that node (isoparametric), and its abscissa runs with the

@@ -1,17 +1,17 @@
 // A contact interface between two surfaces: rows as in coupling.h, integrals over the common refinement of
 // their triangles.
 //
-// A nonmortar triangle sees the mortar surface along n ~ R1 n1 - R2 n2, n1, n2 the outward normals and R1, R2
-// the radii of curvature of both surfaces, as in the plane (facing_line.h): a plane triangle along its own
-// normal, a curved one that faces a plane along the normal of the plane, on which alone the distance depends.
-// Each point of a rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force
-// and moment.
+// A nonmortar triangle faces the mortar surface along n ~ R1 n1 - R2 n2, n1, n2 the outward normals and R1,
+// R2 the radii of curvature of both surfaces, as in the plane (facing_line.h): a plane triangle along its
+// own normal, a curved one that faces a plane along the normal of the plane, on which alone the distance
+// depends. Each point of a rule adds a pair of opposite forces along the line through x1 and x2: rows
+// balance in force and moment.
 //
 // Row functions are the hat functions of the nonmortar vertices, whatever the degree: quadratic functions
 // have no mean on a triangle (int chi_vertex = 0), so that forces at vertices say nothing of the pressure. A
-// vertex has a row for each smooth part of the surface that meets there if it sees the mortar surface itself.
-// The functions of the others go to neighbours with rows in equal parts, neighbour by neighbour, so that row
-// functions still add up to 1.
+// vertex has a row for each smooth part of the surface that meets there if it faces the mortar surface
+// itself. The functions of the others go to neighbours with rows in equal parts, neighbour by neighbour, so
+// that row functions still add up to 1.
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -101,13 +101,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     return PartVertex{nonmortar.triangles[triangle][k], nonmortar.parts[triangle]};
   };
   forEachFacing(nonmortar, mortar, directions, reach, [&](const FacingTriangles& each) {
-    // A triangle that does not look at the plane sees nothing.
+    // A triangle that does not look at the plane faces nothing.
     if (directions[each.nonmortar].dot(nonmortar.normals[each.nonmortar]) < 1e-3) return;
     facing.push_back(each);
     constexpr double rounding = 1e-9;
     const std::array<Point, 3> corners{Point(0, 0), Point(1, 0), Point(0, 1)};
     for (int k = 0; k < 3; ++k)
-      if (each.at(corners[k]).minCoeff() >= -rounding) vertices[keyOf(each.nonmortar, k)].sees = true;
+      if (each.at(corners[k]).minCoeff() >= -rounding) vertices[keyOf(each.nonmortar, k)].faces = true;
   });
 
   // Rows.
@@ -120,21 +120,21 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     return mayMerge && options.nonmortarHeld(key.first, contactNormal(vertex));
   };
   const bool allHeld = std::all_of(vertices.begin(), vertices.end(), [&](const auto& each) {
-    return !each.second.sees || held(each.first, each.second);
+    return !each.second.faces || held(each.first, each.second);
   });
-  std::vector<RaySight> sights;
+  std::vector<RayHit> hits;
   std::vector<double> distances;
   std::vector<SpacePoint> places;
   for (auto& [key, vertex] : vertices) {
-    if (!vertex.sees) continue;
+    if (!vertex.faces) continue;
     const SpacePoint n = contactNormal(vertex);
-    const RaySight sight = tree.along(vertex.place, n, reach);
-    if (pair.coupling == CouplingKind::interpolation && sight.triangle < 0) continue;
+    const RayHit hit = tree.along(vertex.place, n, reach);
+    if (pair.coupling == CouplingKind::interpolation && hit.triangle < 0) continue;
     if (!allHeld && held(key, vertex)) {
       bool across = true;  // whether the other side is held there too
       for (int k = 0; k < 3 && pair.coupling == CouplingKind::interpolation; ++k)
         across = across && options.mortarHeld &&
-                 (std::abs(sight.mu[k]) < 1e-9 || options.mortarHeld(mortar.triangles[sight.triangle][k], n));
+                 (std::abs(hit.mu[k]) < 1e-9 || options.mortarHeld(mortar.triangles[hit.triangle][k], n));
       if (across) {
         ++result.heldEnds_;
         continue;
@@ -143,9 +143,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     vertex.rows.emplace_back(static_cast<int>(result.nonmortarNodes_.size()), 1);
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
-    sights.push_back(sight);
-    distances.push_back(sight.triangle < 0 ? infinity
-                                           : sight.delta + n.dot(mortar.offset(sight.triangle, sight.mu)));
+    hits.push_back(hit);
+    distances.push_back(hit.triangle < 0 ? infinity : hit.delta + n.dot(mortar.offset(hit.triangle, hit.mu)));
     places.push_back(vertex.place);
   }
   shareFunctions(vertices);
@@ -171,7 +170,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     const auto& x = nonmortar.places[each.nonmortar];
     const SpacePoint& n = directions[each.nonmortar];
     const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
-    std::vector<int> own;  // rows that see this triangle
+    std::vector<int> own;  // rows whose functions are not 0 on this triangle
     std::array<const VertexFacts*, 3> corners;
     for (int k = 0; k < 3; ++k) {
       corners[k] = &vertices[keyOf(each.nonmortar, k)];
@@ -266,15 +265,15 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.distance_ = inverse.cwiseProduct(distance);
   } else {
     result.mass_ = assembled(rows, rows, mass);
-    Triplets own, seen;
+    Triplets own, opposite;
     for (Eigen::Index row = 0; row < rows; ++row) {
       const SpacePoint& n = result.spaceNormals_[row];
       add(own, row, result.nonmortarNodes_[row], 1, n);
       for (int k = 0; k < 3 && !projects; ++k)
-        add(seen, row, mortar.triangles[sights[row].triangle][k], -sights[row].mu[k], n);
+        add(opposite, row, mortar.triangles[hits[row].triangle][k], -hits[row].mu[k], n);
     }
     result.C1_ = assembled<ConstraintRows>(rows, columns1, own);
-    result.C2_ = assembled<ConstraintRows>(rows, columns2, seen);
+    result.C2_ = assembled<ConstraintRows>(rows, columns2, opposite);
     result.distance_ = Eigen::Map<const Vector>(distances.data(), rows);
     if (projects) {
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(result.mass_);
@@ -293,7 +292,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       };
       result.C1_ += projected(columns1, D);
       result.C2_ = projected(columns2, M);
-      // The projection of a convex distance may be below the least one that a row function sees.
+      // The projection of a convex distance may be below the least one where a row function is not 0.
       const Vector mean = factor.solve(distance);
       result.distance_ = mean.cwiseMax(least.cwiseMin(result.distance_));
     }

@@ -208,10 +208,10 @@ void TriangleTree::findAlong(const SpacePoint& from, const SpacePoint& direction
   std::sort(found.begin(), found.end());
 }
 
-RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction, double reach) const {
+RayHit TriangleTree::along(const SpacePoint& from, const SpacePoint& direction, double reach) const {
   std::vector<int> candidates;
   findAlong(from, direction, rounding * surface_.extent, reach, candidates);
-  RaySight nearest;
+  RayHit nearest;
   for (const int t : candidates) {
     if (surface_.normals[t].dot(direction) > grazing) continue;
     const auto& [a, b, c] = surface_.places[t];
@@ -227,15 +227,15 @@ RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction
 
 SpacePoint TriangleTree::contactDirection(const SpacePoint& place, const SpacePoint& n1, double curvature1,
                                           double reach, bool curved) const {
-  constexpr int repetitions = 4;  // each makes what is seen more exact by the turn along the distance
+  constexpr int repetitions =
+      4;  // each makes the point that is faced more exact by the turn along the distance
   SpacePoint n = n1;
   for (int i = 0; i < repetitions && curvature1 > 0; ++i) {
-    const RaySight sight = along(place, n, reach);
-    if (sight.triangle < 0) break;
-    const SpacePoint n2 =
-        curved ? surface_.normalAt(sight.triangle, sight.mu) : surface_.normals[sight.triangle];
+    const RayHit hit = along(place, n, reach);
+    if (hit.triangle < 0) break;
+    const SpacePoint n2 = curved ? surface_.normalAt(hit.triangle, hit.mu) : surface_.normals[hit.triangle];
     if (!(n1.dot(n2) < 0)) return n1;
-    const double part = curvature1 / (curvature1 + surface_.curvatureAt(sight.triangle, sight.mu));
+    const double part = curvature1 / (curvature1 + surface_.curvatureAt(hit.triangle, hit.mu));
     n = ((1 - part) * n1 - part * n2).normalized();
   }
   return n;
@@ -314,7 +314,7 @@ void shareFunctions(VertexTable& vertices) {
       for (const auto& [row, part] : parts) rows.emplace_back(row, part / givers);
       found.emplace_back(key, std::move(rows));
     }
-    if (found.empty()) return;  // parts of the surface that see nothing
+    if (found.empty()) return;  // parts of the surface that face nothing
     for (auto& [key, rows] : found) vertices[key].rows = std::move(rows);
     open = std::move(still);
   }

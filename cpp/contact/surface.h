@@ -1,4 +1,4 @@
-// The labelled boundary of a body in space as contact sees it, and the common refinement of two of them.
+// The labelled boundary of a body in space, and the common refinement of two of them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -57,7 +57,7 @@ struct ContactSurface {
 };
 
 /// A nonmortar and a mortar triangle that face each other. A point of the first one, at its second and third
-/// barycentric coordinates l, sees along a direction d
+/// barycentric coordinates l, faces along a direction d
 ///   x2(l) = x1(l) + delta(l) d
 /// on the plane of the other, at its barycentric coordinates mu(l). mu and delta are affine in l.
 struct FacingTriangles {
@@ -79,7 +79,7 @@ void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar
 
 /// The same of one ray from a point: the triangle that it meets first, its barycentric coordinates there
 /// and the distance; -1 for none.
-struct RaySight {
+struct RayHit {
   int triangle = -1;
   Eigen::Vector3d mu;
   double delta = 0;
@@ -93,7 +93,7 @@ class TriangleTree {
   /// that, ascending.
   void findAlong(const SpacePoint& from, const SpacePoint& direction, double radius, double reach,
                  std::vector<int>& found) const;
-  [[nodiscard]] RaySight along(const SpacePoint& from, const SpacePoint& direction, double reach) const;
+  [[nodiscard]] RayHit along(const SpacePoint& from, const SpacePoint& direction, double reach) const;
   /// The direction n ~ R1 n1 - R2 n2 from a point of the other surface with normal n1 and curvature 1/R1.
   /// \param curved  n1 and n2 are those of the curved surfaces, not of triangles
   [[nodiscard]] SpacePoint contactDirection(const SpacePoint& place, const SpacePoint& n1, double curvature1,
@@ -105,14 +105,14 @@ class TriangleTree {
   Eigen::KdBVH<double, 3, int> tree_;
 };
 
-/// A vertex of the nonmortar surface, as one of its smooth parts sees it.
+/// A vertex of the nonmortar surface, as one of its smooth parts has it.
 using PartVertex = std::pair<int, int>;  // vertex, part
 
 struct VertexFacts {
   SpacePoint place, normal;
   double curvature = 0;
   std::set<PartVertex> neighbours;
-  bool sees = false;
+  bool faces = false;
   std::vector<std::pair<int, double>> rows;  ///< to which its hat function goes, with which part
 };
 

@@ -1,4 +1,4 @@
-// One deformable body: a mesh, a material, what holds it and what loads it. It knows nothing of contact.
+// One deformable body: a mesh, a material, its supports and its loads. It has nothing of contact.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -72,7 +72,7 @@ class Body {
   /// \param degree  of the displacements, 1 or 2
   /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/triangle_mesh.h): the material has four
   /// components then, integrals are of the whole ring, and forces are in [N]
-  /// \param averaged  whether its material sees an averaged volumetric strain (fem/tangent_assembly.h)
+  /// \param averaged  whether its material gets an averaged volumetric strain (fem/tangent_assembly.h)
   /// \throws InputError when a condition names a label or a point that the mesh does not have, where a
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
@@ -200,7 +200,7 @@ class Body {
   /// stresses balance each other.
   [[nodiscard]] double largestForce(const Matrix& stress) const;
   /// B u - shift (components x points; no shift where null) of a displacement (dofs) in two parts, in twice
-  /// the working precision: a triangle that is still elastic next to one that flows sees tiny differences of
+  /// the working precision: a triangle that is still elastic next to one that flows has tiny differences of
   /// large displacements, and where stress relaxes almost all of B u is shift. Fills the columns [begin,
   /// end).
   void strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;

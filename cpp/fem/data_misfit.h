@@ -25,7 +25,7 @@ double mean(const ResolvedTriangle& triangle);
 std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
                                const std::vector<std::array<double, 3>>& places);
 
-/// The part of a datum that the discrete problem does not see: w = f - (projection or interpolant). All
+/// The part of a datum that the discrete problem does not have: w = f - (projection or interpolant). All
 /// integrals are of an edge or triangle of measure 1; by length or area they are those of the real one.
 struct Misfit {
   double square = 0;     ///< integral of w^2

@@ -201,7 +201,7 @@ Eigen::Matrix<double, Element::points, Element::nodes> stressAtNodes() {
 }
 
 /// The energy of a field that is f_a at the nodes is the volume times the sum of those of its modes
-/// sum_a f_a L_am, with the mass L L'. Laws know stress points alone: modes take their place, some at a time.
+/// sum_a f_a L_am, with the mass L L'. Laws take stress points alone: modes take their place, some at a time.
 template <class Element>
 ErrorEstimate estimateOn(const Body& body, const Matrix& stress, Threads& threads) {
   constexpr int each = Element::points;

@@ -58,14 +58,14 @@ SidesOfNodes sidesOf(const TriangleMesh& mesh, const ElementNodes& nodes,
   return result;
 }
 
-/// The other side at the node that goes on smoothly from this one; nullptr where there is none.
+/// The other side at the node that continues this one smoothly; nullptr where there is none.
 const Side* smoothNeighbour(const std::vector<Side>& sides, const Side& side) {
   for (const Side& each : sides)
     if (each.edge != side.edge && each.normal.dot(side.normal) > cornerCosine) return &each;
   return nullptr;
 }
 
-/// The normal at a node as its side sees it.
+/// The normal of a side at a node.
 Point normalAt(const SidesOfNodes& sides, int node, const Side& side) {
   // Of the circle through three nodes: edge normals weighted by the inverse lengths.
   if (const Side* next = smoothNeighbour(sides.at(node), side))

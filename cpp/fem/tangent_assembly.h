@@ -15,7 +15,7 @@
 
 namespace mortier {
 
-// An assumed volumetric strain (B-bar, Hughes 1980): the change of volume theta that the material sees is the
+// An assumed volumetric strain (B-bar, Hughes 1980): the change of volume theta that the material gets is the
 // L2 projection of that of the displacements onto polynomials of one degree less, patch by patch of
 // triangles. Degree 1: constants on about four triangles; degree 2: linear functions on about two. Only the
 // strain p = (e11 + e22)/sqrt2 is replaced, by p + (A theta - theta)/sqrt2, so nothing moves across the plane
@@ -83,7 +83,7 @@ class VolumePatches {
   std::vector<double> uniform_;
 };
 
-/// The triangles of a body as kernels see them.
+/// The triangles of a body as kernels take them.
 struct TriangleData {
   const ElementNodes& nodes;
   const std::vector<int>& equations;       ///< of dof 2 node + component, ascending; -1 where there is none

@@ -82,7 +82,7 @@ class SuiteSparse final : public CondensingSolver {
   }
 
  private:
-  /// The blocks of K, with entries by rows as the libraries want them.
+  /// The blocks of K, with entries by rows as the libraries take them.
   void split(const std::vector<double>& values) {
     const Eigen::Map<const Sparse> held(pattern_.size, pattern_.size, pattern_.entries(),
                                         pattern_.columnStart.data(), pattern_.rows.data(), values.data());

@@ -250,8 +250,8 @@ Vector turnOf(const LintInput& input, const SideDescription& side, double t) {
   return u;
 }
 
-/// Whether supports slide bodies that touch along each other by more than contact sees. Their motion is taken
-/// as a rigid one of the nonmortar body.
+/// Whether supports slide bodies that touch along each other by more than contact takes into account. Their
+/// motion is taken as a rigid one of the nonmortar body.
 void checkSliding(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
                   const ContactInterface& interface, Faults& faults) {
   constexpr double touching = 1e-9;

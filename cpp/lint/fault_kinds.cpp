@@ -76,7 +76,7 @@ const std::vector<FaultKind>& faultKinds() {
        "check the units of young, e.g. MPa against Pa"},
       {"same-mesh", warning, "two bodies have the same mesh", "give one of them its own mesh"},
       {"bodies-overlap", warning, "bodies penetrate each other",
-       "move one of the meshes; contact sees its labelled lines only"},
+       "move one of the meshes; contact takes its labelled lines only"},
       {"contact-missing", warning, "bodies touch, and the scene has no contact between them",
        "add a [[contact]], or nothing keeps them from penetrating each other"},
       {"body-alone", warning, "a body is in no contact", "add a [[contact]], or take the body out"},
@@ -103,7 +103,7 @@ const std::vector<FaultKind>& faultKinds() {
        "sides"},
       {"gap-large", warning, "the sides are further apart than half the smaller body",
        "move the meshes together, or check their units"},
-      {"contact-slides", warning, "supports slide bodies along each other by more than contact sees",
+      {"contact-slides", warning, "supports slide bodies along each other by more than contact follows",
        "draw the bodies where they are to touch: slips are taken as small here, and a run ends where a node "
        "passes the end of the line that it touches (contact.sliding)"},
       {"large-rotation", warning, "supports turn bodies by more than 5 degrees",

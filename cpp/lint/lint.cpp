@@ -227,7 +227,7 @@ void lintModel(const SceneDescription& scene, const Model& model, Faults& faults
                  "body " + scene.bodies[b].name + " may turn about " +
                      computedPlace(*centre, extent(model.bodies[b].mesh())) +
                      ": neither its supports nor contact without friction hold it");
-  if (scene.time.controlled()) return;  // steps see what there is
+  if (scene.time.controlled()) return;  // the error of steps has it
   for (const std::string& warning : loadsBetweenSteps(scene, model))
     faults.add("load-between-steps", warning);
 }

@@ -1,4 +1,4 @@
-// Edges of a mesh, and which of them are near a point: what geometric checks ask for.
+// Edges of a mesh, and which of them are near a point: for geometric checks.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
-// A law tried at random stresses and strains: what theory asks of it, and whether its tangent is right. With
-// |s|_C^2 = s : E^-1 s and |e|_E^2 = e : E e the step of backward Euler of length k is the fixed point of
+// A law tried at random stresses and strains: what theory demands of it, and whether its tangent is right.
+// With |s|_C^2 = s : E^-1 s and |e|_E^2 = e : E e the step of backward Euler of length k is the fixed point
+// of
 //   G -> elastic solution (s, eps) with the viscoplastic strain k G -> G(s, eps),
 // and elasticity, contact or not, takes a change dg of that strain to changes with
 //   |ds|_C^2 + |deps|_E^2 <= |dg|_E^2.

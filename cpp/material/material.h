@@ -1,5 +1,5 @@
-// What a body asks of its material: the stress law of one time step at its points, linearised. A material
-// knows no mesh and keeps no state. With the elasticity E and the viscoplastic rate G,
+// The interface of a body to its material: the stress law of one time step at its points, linearised. A
+// material has no mesh and keeps no state. With the elasticity E and the viscoplastic rate G,
 //   E^-1 (s - s0) + weight G(s, eps) = strain.
 // Laws are written for one point (point_material.h); a body may have several (parts.h).
 #pragma once
@@ -19,7 +19,7 @@ struct MaterialStep {
   double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
   const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
   const Matrix& strain;   ///< components x points, total strain increment minus the scheme's shift [-]
-  /// Judge yielding by the stress plus a part of the change that the strain still asks for: Newton's method
+  /// Judge yielding by the stress plus a part of the change that the strain still requires: Newton's method
   /// is slower where bodies flow, but converges where triangles are on the yield surface.
   bool anticipate = false;
   /// What `strain` is added to, to give the total strain eps; needed where the law depends on that [-].
@@ -56,7 +56,7 @@ struct Linearisation {
 
 /// What linearising a range of points returns beside the fields.
 struct LawReport {
-  double change = 0;  ///< the largest change of stress that the law asks for [Pa]; NaN where any is
+  double change = 0;  ///< the largest change of stress that the law requires [Pa]; NaN where any is
   int elastic = 0;    ///< points of the range if the moduli of all of them are those of elasticity, else 0
 };
 
@@ -152,7 +152,7 @@ class Material {
   [[nodiscard]] virtual int components() const = 0;
   /// How many of them are those of the tensor.
   [[nodiscard]] virtual int tensorComponents() const { return components(); }
-  /// The stress beyond the plane that elasticity asks for beside p, q, r, without strain beyond it [Pa].
+  /// The stress beyond the plane that elasticity has beside p, q, r, without strain beyond it [Pa].
   [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& stress, int point) const = 0;
   /// Whether the moduli are symmetric whatever the stress.
   [[nodiscard]] virtual bool symmetricTangent() const = 0;

@@ -33,7 +33,7 @@ Lanes NortonLaw<n>::logarithm(double weight, const Lanes& square) const {
 //   H = E^-1 + theta (diag(a) + (n-1) w w'),   w = a s/vM.
 // On the law l = 1, so that convergence is quadratic; elsewhere l is free. Let kappa = weight |G(s)|/vM and
 // mu = v . s/vM^2, equal on the law, and m = E mu. A stress far above the law (kappa > mu) may be one that
-// loads ask for, before it has crept: then l = 1 is right, and m is next to 0. Or it is elastic, for a strain
+// loads require, before it has crept: then l = 1 is right, and m is next to 0. Or it is elastic, for a strain
 // that is given: then v is right, and so is the stress whose flow it is, l^n = mu/kappa, while l = 1 would
 // come down by 1/n in each iteration. In between is the stress x for which c weight G(x) is as much as
 // s + c v, where c goes from 0 to E as the flow outgrows the elastic strain. If v is against s, so much of

@@ -211,7 +211,7 @@ class OwnMaterial final : public Material {
   }
 
   /// Whether the last step of Newton's method leaves nothing, or rounding. Elsewhere that step may lead to
-  /// the iterate itself, as across a jump of the rate, and is itself what the law asks for.
+  /// the iterate itself, as across a jump of the rate, and is itself the stress of the law.
   [[nodiscard]] static bool isOnLaw(const Local& local, int i) {
     constexpr double enough = 1e-10;    // of the terms of the residual: the next residual is its square
     constexpr double rounding = 1e-15;  // of the stress

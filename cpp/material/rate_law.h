@@ -37,7 +37,7 @@ struct Components {
   Number c11, c22, c12, c33;
 };
 
-/// The same in space. A law whose rateOf takes these knows bodies in space; a template takes both.
+/// The same in space. A law whose rateOf takes these supports bodies in space; a template takes both.
 template <class Number>
 struct SpaceComponents {
   Number c11, c22, c12, c33, c13, c23;

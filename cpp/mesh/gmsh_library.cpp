@@ -31,7 +31,7 @@ std::string decimal(double value) {
 Gmsh::Gmsh(const MeshSource& source) : path_(source.path) {
   library_ = dlopen(MORTIER_GMSH, RTLD_NOW);
   if (library_ == nullptr) throw InputError(path_ + ": Gmsh cannot be loaded: " + dlerror());
-  // Later versions ask as well whether to run as a program.
+  // Later versions have an argument for runs as a program.
   std::vector<std::string> words{"gmsh"};
   for (const auto& [name, value] : source.parameters)
     words.insert(words.end(), {"-setnumber", name, decimal(value)});
@@ -203,7 +203,7 @@ class GmshCurve {
   std::map<size_t, double> parameters_;
 };
 
-/// None where Gmsh does not know its parameter.
+/// None where Gmsh has no parameter for it.
 std::optional<GmshCurve> curveOf(const Gmsh& gmsh, int curve) {
   try {
     return GmshCurve(gmsh, curve);

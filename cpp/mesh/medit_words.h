@@ -21,7 +21,7 @@ class MeditWords {
   Number number(const char* what) {
     skipBlanks();
     const size_t begin = at_;
-    if (at_ < text_.size() && text_[at_] == '+') ++at_;  // which from_chars does not know
+    if (at_ < text_.size() && text_[at_] == '+') ++at_;  // which from_chars does not take
     Number value{};
     const char* const last = text_.data() + text_.size();
     const auto [end, error] = std::from_chars(text_.data() + at_, last, value);

@@ -58,7 +58,7 @@ TriangleMesh readGmsh(const MeshSource& source, double seconds = gmshPatience);
 TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds = gmshPatience);
 
 // Medit .mesh files (ASCII), as FreeFEM and Gmsh read and write them; coordinates survive bit by bit. The
-// format has no names for labels. They stand in lines after its End, which other readers do not see:
+// format has no names for labels. They stand in lines after its End, which other readers skip:
 //   # label 3 = top
 //   # region 1 = punch
 

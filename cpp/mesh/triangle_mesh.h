@@ -1,4 +1,4 @@
-// Triangle meshes with labels: the only geometry that the rest of the code knows.
+// Triangle meshes with labels: the only geometry of the rest of the code.
 #pragma once
 
 #include <array>

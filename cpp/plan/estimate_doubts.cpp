@@ -37,7 +37,7 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
   for (const int b : found)
     doubts.push_back("body " + model.bodies[b].name() +
                      " may flow and is more than 100 times stiffer than one that it touches; of its error it "
-                     "sees 0.4 to 0.8");
+                     "finds 0.4 to 0.8");
   return doubts;
 }
 
@@ -76,7 +76,7 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
   };
   if (std::any_of(model.interfaces.begin(), model.interfaces.end(), falseStresses))
     doubts.emplace_back(
-        "interpolation on meshes that do not match makes false stresses, of which it sees 0.34 to 0.8");
+        "interpolation on meshes that do not match makes false stresses, of which it finds 0.34 to 0.8");
   for (size_t b = 0; b < model.bodies.size() && scene.plane != Plane::stress; ++b) {
     const auto materials = materialsOf(scene.bodies[b]);
     const bool keepsVolume = std::any_of(
@@ -85,10 +85,10 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
     if (keepsVolume && scene.degree > 1)
       doubts.push_back(
           "body " + model.bodies[b].name() +
-          " is nearly incompressible, of whose error with quadratic displacements it sees 0.5 to 1.2");
+          " is nearly incompressible, of whose error with quadratic displacements it finds 0.5 to 1.2");
     else if (keepsVolume && !(crossedPart(model.bodies[b].mesh()) > crossed))
       doubts.push_back("body " + model.bodies[b].name() +
-                       " is nearly incompressible and locks on cells with one diagonal, of which it sees "
+                       " is nearly incompressible and locks on cells with one diagonal, of which it finds "
                        "0.38 to 1.2");
   }
   return doubts;

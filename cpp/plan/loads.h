@@ -35,7 +35,7 @@ struct SampledDatum {
   [[nodiscard]] double largestIn(const TimePlan& plan) const;
   /// Largest |value(t) - value(s)| over the points.
   [[nodiscard]] double change(double s, double t) const;
-  /// Stress that a unit of the value asks for, by order of magnitude: 1 of tractions, the extent of body
+  /// Stress that a unit of the value causes, by order of magnitude: 1 of tractions, the extent of body
   /// forces, Young's modulus over the extent of displacements and distances, and times the thermal strain.
   [[nodiscard]] double stressOfUnit(const SceneDescription& scene) const;
 };
@@ -49,13 +49,13 @@ std::vector<double> trialTimes(const TimePlan& plan);
 /// Whether the value differs at any of the times.
 bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
 
-/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]; of distances their
+/// The stress that the data of the scene cause at a time, by order of magnitude [Pa]; of distances their
 /// change counts.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
 /// The largest of the run.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data);
 
-/// The datum whose change from one time to another asks for the largest stress: the scene's words with file
+/// The datum whose change from one time to another causes the largest stress: the scene's words with file
 /// and line, and its largest value at both times. Empty where none changes.
 std::string drivingDatum(const MeshedScene& input, double from, double to);
 

@@ -14,14 +14,14 @@ constexpr double negligible = 1e-24;
 
 }  // namespace
 
-bool AccuracyRecord::asks(const StepReport& report, bool kept) const {
+bool AccuracyRecord::needs(const StepReport& report, bool kept) const {
   constexpr double often = 2;
   const bool solved = report.step > 0 || report.energy > 0;  // nothing may act in the first state
   return solved && (kept || report.energy > often * memory_.energy);
 }
 
 void AccuracyRecord::add(const StepReport& report, bool kept) {
-  if (!asks(report, kept)) return;
+  if (!needs(report, kept)) return;
   memory_.energy = std::max(memory_.energy, report.energy);
   double error = 0;
   for (const ErrorEstimate& estimate : *error_.estimates()) error += estimate.error.sum();

@@ -20,7 +20,7 @@
 
 namespace mortier {
 
-// Facts of the scene that reports show and the model does not have, so that reports need not know scenes.
+// Facts of the scene that reports show and the model does not have, so that reports do not depend on scenes.
 
 /// "a, b, c"; `none` where there is none.
 inline std::string joined(const std::set<std::string>& words, const std::string& none = "") {
@@ -139,7 +139,7 @@ class AccuracyRecord {
   AccuracyRecord(const Model& model, CurrentSpaceError& error, AccuracyMemory& memory)
       : model_(model), error_(error), memory_(memory) {}
   /// Whether add() needs the state.
-  [[nodiscard]] bool asks(const StepReport& report, bool kept) const;
+  [[nodiscard]] bool needs(const StepReport& report, bool kept) const;
   void add(const StepReport& report, bool kept);
   /// \param quantities  their errors; 0 where the error of the stress is at the level of rounding
   Accuracy atEnd(const Peaks& peaks, std::vector<QuantityError> quantities = {});

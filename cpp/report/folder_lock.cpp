@@ -89,7 +89,7 @@ FolderLock::FolderLock(const std::string& folder, const std::string& name) : nam
   for (size_t all = 0; written >= 0 && all < line.size(); all += static_cast<size_t>(written))
     written = write(file_.number(), line.data() + all, line.size() - all);
   if (written < 0) fail(path, "written", errno);
-  flock(file_.number(), LOCK_EX | LOCK_NB);  // nobody else knows of it
+  flock(file_.number(), LOCK_EX | LOCK_NB);  // nothing else has opened it
   state_ = State::held;
 }
 

@@ -63,7 +63,7 @@ class Log {
 std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
                         const Solved& solved);
 
-// Guaranteed bounds in it. \tparam Json  nlohmann's, which only sources know
+// Guaranteed bounds in it. \tparam Json  nlohmann's, which only sources include
 template <class Json>
 Json jsonOfBounds(const Accuracy& accuracy);
 /// Of the error of a quantity.

@@ -27,7 +27,7 @@ name | | | letters, digits, `_`, `-`; each once | names files and messages
 mesh | m | | a Medit `.mesh` file, a file for Gmsh (`.msh`, `.geo`, `.step`, ...), or a table | path relative
   to the scene
 volume | | `"automatic"` | `"automatic"`, `"pointwise"`, `"averaged"` | the volumetric strain that the
-  material sees: of each point, or averaged over patches of triangles, by itself where the body keeps its
+  material gets: of each point, or averaged over patches of triangles, by itself where the body keeps its
   volume ([below](#bodies-that-keep-their-volume))
 material, force, boundary, region, initial_stress, point
 temperature | K | 0 | datum, or `{ file = "...", factor = datum }` | above that at which nothing is strained;

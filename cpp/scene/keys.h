@@ -1,6 +1,6 @@
 // The table of keys (key_table.cpp): what a scene may hold, table by table, with unit, default, range and a
 // line of help. The reader, the conversion of units, --set, the help of options, the completion of shells and
-// docs/scene.md take what they know of a key from it.
+// docs/scene.md take keys from it.
 #pragma once
 
 #include <cmath>

@@ -27,7 +27,7 @@ Matrix readRows(const TableReader& table, const std::string& key, const std::str
   return rows;
 }
 
-/// NaN where it is not given: plane strain and space ask for it then.
+/// NaN where it is not given: plane strain and space require it then.
 Orthotropy readOrthotropy(const TableReader& table) {
   requireOfDimension(table, {"shear13", "shear23"}, {});
   return {{table.number("young1"), table.number("young2"), table.number("young3", NAN)},

@@ -51,7 +51,7 @@ class TableReader {
   }
   /// The index of the value among `words`; of the default where `otherwise` is negative.
   [[nodiscard]] int oneOf(const std::string& key, const Keys& words, int otherwise = -1) const;
-  /// A label: a number >= 0, or a name that the mesh knows.
+  /// A label: a number >= 0, or a name in the mesh.
   struct Label {
     int number = 0;
     std::string name;
@@ -113,7 +113,7 @@ MeshShape readShape(const TableReader& table);
 SpaceShape readSpaceShape(const TableReader& table);
 /// Whether a word of `shape` is one in space.
 bool isSolidShape(const std::string& word);
-/// What makes a body in space of a plane mesh; none where no key asks for it.
+/// What makes a body in space of a plane mesh; none where no key gives it.
 std::optional<Sweep> readSweep(const TableReader& table);
 const Keys& sweepKeys();
 
@@ -131,7 +131,7 @@ void requireRates(const BodyDescription& body, const SceneDescription& scene);
 /// Isotropic by young and poisson, orthotropic by nine constants, general by its matrix, and the axes it is
 /// turned by; the coefficients of thermal expansion.
 void readElasticity(const TableReader& table, MaterialDescription& material);
-/// Refuses a law that asks for isotropic elasticity beside another.
+/// Refuses a law that requires isotropic elasticity beside another.
 void requireTakesElasticity(const TableReader& table, const MaterialDescription& material);
 /// law = "expression": rate11, rate22, rate12, rate33 in s11, s22, s12, s33, e11, e22, e12, e33 and what
 /// `parameters` names, numbers and expressions.

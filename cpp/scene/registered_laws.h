@@ -20,7 +20,7 @@ class LawParameters {
   /// \throws InputError where there is none
   [[nodiscard]] double operator[](const std::string& name) const;
   [[nodiscard]] double orElse(const std::string& name, double fallback) const;
-  /// All of them; then any name is one that the law knows.
+  /// All of them; then any name is one of the law.
   [[nodiscard]] const std::map<std::string, double>& all() const;
   /// \throws InputError for one that the law has not asked for
   void requireAllUsed() const;

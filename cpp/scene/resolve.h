@@ -38,7 +38,7 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
 /// \throws InputError, headed by `place`, with that vertex and its distance.
 Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
 
-// Which volumetric strain the material of a body sees where the scene leaves it open (`volumes`).
+// Which volumetric strain the material of a body gets where the scene leaves it open (`volumes`).
 
 /// Whether a material is elastically next to incompressible where the thickness cannot make up for it; in
 /// space on linear tetrahedra.

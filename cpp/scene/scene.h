@@ -99,7 +99,7 @@ struct TemperatureDescription {
   std::string where;
 };
 
-/// The volumetric strain that the material of a body sees (fem/tangent_assembly.h).
+/// The volumetric strain that the material of a body gets (fem/tangent_assembly.h).
 enum class Volume { automatic, pointwise, averaged };
 
 struct BodyDescription {

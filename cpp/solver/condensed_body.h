@@ -17,7 +17,7 @@
 
 namespace mortier {
 
-// What contact sees of a body: the equations that its conditions act on, its columns of C there, and the
+// A body as contact has it: the equations that its conditions act on, its columns of C there, and the
 // rigid motions that its supports leave free.
 
 struct ContactDofs {
@@ -111,7 +111,7 @@ class CondensedBody {
   Factors factorise();
   /// The tangent that was factorised last, as values of the body's pattern.
   [[nodiscard]] const std::vector<double>& tangent() const { return values_; }
-  /// What is left to do for parts. Collective.
+  /// The remaining work for parts. Collective.
   void join(Factors& factors);
   /// Whether points began or ceased to flow in the linearisations since.
   [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }

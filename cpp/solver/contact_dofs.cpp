@@ -36,13 +36,13 @@ void forEachEntry(const ContactInterface& interface, int body, const ConstraintR
   if (interface.pair().mortar.body == body) visitAll(mortar);
 }
 
-/// A rigid body has no equations of nodes: contact sees the dofs themselves, which its motions move.
-bool seesDofs(const Body& body) {
+/// A rigid body has no equations of nodes: contact takes the dofs themselves, which its motions move.
+bool takesDofs(const Body& body) {
   return body.rigid() && body.freeDofs() > 0;
 }
 
 std::array<Body::Part, 3> partsOf(const Body& body, int node, const SpacePoint& vector) {
-  if (!seesDofs(body)) return body.parts(node, vector);
+  if (!takesDofs(body)) return body.parts(node, vector);
   return {Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}, Body::Part{}};
 }
 
@@ -78,7 +78,7 @@ ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& f
 
 void ContactDofs::findEquations(const Model& model, int body, const std::vector<int>& firstRow) {
   const Body& of = model.bodies[body];
-  column_.assign(seesDofs(of) ? of.dofs() : of.freeDofs(), -1);
+  column_.assign(takesDofs(of) ? of.dofs() : of.freeDofs(), -1);
   const auto add = [&](int equation) {
     if (equation < 0 || column_[equation] >= 0) return;
     column_[equation] = static_cast<int>(equations.size());
@@ -89,7 +89,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
     if (!interface.follows()) continue;
     const auto addLine = [&](const std::vector<int>& nodes) {
       for (const int node : nodes)
-        for (const int c : {0, 1}) add(seesDofs(of) ? 2 * node + c : of.equations()[2 * node + c]);
+        for (const int c : {0, 1}) add(takesDofs(of) ? 2 * node + c : of.equations()[2 * node + c]);
     };
     if (interface.pair().nonmortar.body == body) addLine(interface.nonmortarLine());
     if (interface.pair().mortar.body == body) addLine(interface.mortarNodes());

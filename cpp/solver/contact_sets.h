@@ -16,7 +16,7 @@ namespace mortier {
 constexpr double softer = 1e-2;
 /// Down to which weight, over the stiffness that all nodes together give to rigid motions [-].
 constexpr double weakestProximal = 1e-13;
-/// What is left of the balance of rigid motions by rounding, over the forces in it [-].
+/// The remainder of the balance of rigid motions by rounding, over the forces in it [-].
 constexpr double balanceRounding = 1e-14;
 
 inline double ratio(double part, double whole) {

@@ -16,7 +16,7 @@ std::optional<Point> centreOfRoller(const Model& model, int body);
 /// The same where the supports leave the rotation about it free, too.
 std::optional<Point> freeRotation(const Model& model, int body);
 
-/// Whether a rigid motion (by dofs) is such a rotation, but for what nodes see of it.
+/// Whether a rigid motion (by dofs) is such a rotation, but for its displacements of nodes.
 bool turnsInItself(const Model& model, int body, const Vector& motion);
 
 }  // namespace mortier

@@ -50,9 +50,9 @@ struct FrictionWork {
 struct FrictionSolution : FrictionWork {
   bool solved = false;
   Vector force = {};   ///< x = (p, t), within its bounds [N/m]
-  Vector motion = {};  ///< w = (g, v), exactly 0 where a set asks it [m]
+  Vector motion = {};  ///< w = (g, v), exactly 0 where a set demands it [m]
   FrictionSets sets = {};
-  /// How far x is from what its own g and v ask of it, over the largest force or what would close the widest
+  /// How far x is from what its own g and v demand, over the largest force or what would close the widest
   /// gap [-].
   double residual = 0;
   int index = 1;         ///< sign of det A: 1 but for solutions that no path of loads leads to

@@ -17,7 +17,7 @@ struct StepData {
   bool startSolved = false;   ///< the start of the step is the solution of the one before
   /// What of `shift` is a change of thermal strain, per body; empty for none.
   std::vector<Matrix> thermal = {};
-  /// g at the start, per interface, as rows that follow the bodies to the end see it; empty: the state's
+  /// g at the start, per interface, by rows that follow the bodies to the end; empty: the state's
   std::vector<Vector> gap = {};
 };
 

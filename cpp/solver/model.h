@@ -17,14 +17,14 @@ namespace mortier {
 // body made of its triangles (fem/body.h), with local numbering. Nodes shared by several ranks are identified
 // by global numbers.
 
-/// What a rank knows of its part of a body.
+/// The part of a body that a rank has.
 struct BodyPart {
   BodyCut cut;
   int wholePoints = 0;
   int pointsOfTriangle = 1;
   std::vector<char> own;  ///< by nodes, whether a triangle of this rank has it
   std::vector<char>
-      owned;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
+      owned;  ///< by nodes, whether this rank adds what all have of it: one of those that own it
   /// Nodes that several ranks have, ascending, and the place of each among those of all ranks: those of
   /// triangles of several, the labelled boundary, and supports.
   std::vector<int> shared;
@@ -62,7 +62,7 @@ Vector nodesOfPart(const BodyPart& part, const Vector& nodal);
 Matrix pointsOfPart(const BodyPart& part, const Matrix& columns);
 
 /// Of the bodies, all of it or the parts of one rank; interfaces are whole, in the numbers of these bodies.
-/// A rank knows the displacements of all its nodes, and so gaps, slips and contact forces; what is summed
+/// A rank has the displacements of all its nodes, and so gaps, slips and contact forces; what is summed
 /// over triangles or the largest of them is that of its own.
 struct Model {
   std::vector<Body> bodies;
@@ -161,7 +161,7 @@ struct SolverOptions {
 };
 
 /// Of a body: large linear bodies in space have factors in single precision, as corrections with them cost
-/// little, and those that have a symmetric tangent where the options ask for it.
+/// little, and those that have a symmetric tangent where the options demand it.
 LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions& options);
 
 /// Whether contact is solved without dense matrices over its conditions.

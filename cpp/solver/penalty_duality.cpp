@@ -175,7 +175,7 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
       return outcome;
     }
 
-    // The forces that the new load asks for are found first: a passing one beyond yield would be hard to
+    // The forces that the new load requires are found first: a passing one beyond yield would be hard to
     // undo.
     StepSystem::Condensed condensed = factorised->condense(step, iterate);
     const Vector& slack = condensed.slack;

@@ -37,7 +37,7 @@ class SparseContact {
   void useSuiteSparse();
 
   struct Solution {
-    Vector motion;           ///< d without the rigid motions that the springs see, by equations
+    Vector motion;           ///< d without the rigid motions that the springs resist, by equations
     Vector rigid;            ///< these
     Vector change;           ///< dp, of closed conditions and of those that are not: p = 0 there
     double forceNoise = 0;   ///< the last correction of it

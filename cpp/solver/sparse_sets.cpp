@@ -30,7 +30,7 @@ class SparseSets final : public ContactSets {
   }
   [[nodiscard]] bool fresh() const override { return exact_; }
 
-  /// What closed conditions resist is no rigid motion, but what springs see of the strain.
+  /// What closed conditions resist is no rigid motion, but the part of the strain that springs resist.
   [[nodiscard]] Vector rigid(const ContactSolution& solution) const override {
     const Matrix free = rigidMotionsOn(solution.active, problem_.G).free;
     return free * (free.transpose() * solution.rigid);

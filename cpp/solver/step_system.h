@@ -167,7 +167,7 @@ class StepSystem {
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
-  /// What the law asks for at the points of all ranks. Collective.
+  /// What the law requires at the points of all ranks. Collective.
   void agreeOnLaws(const Step& step, const Iterate& iterate);
   /// CondensedBody::condense, expand and what joins them; take(body, displacement).
   std::vector<Vector> condenseBodies(const std::vector<Vector>& force);

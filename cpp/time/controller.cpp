@@ -304,7 +304,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     std::optional<StepTaker::Kept> kept;
-    // What passes within a step that begins where the data turn its stages do not see either.
+    // What passes within a step that begins where the data turn its stages do not have either.
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&

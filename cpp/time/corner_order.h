@@ -30,7 +30,7 @@ double orderOfCorner(double angle, SideSupport first, SideSupport second, double
 /// 0 where there is none.
 double cornerOrder(const Body& body, const Matrix& stress, const Point& place);
 
-/// Whether contact that presses ends next to a place at a corner of one body, while the other one goes on:
+/// Whether contact that presses ends next to a place at a corner of one body, while the other one continues:
 /// its pressure may be unbounded.
 bool contactEndsAt(const Model& model, const State& state, const Point& place);
 

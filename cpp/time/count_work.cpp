@@ -94,7 +94,7 @@ void StepTaker::countWork() {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
-    // Nodes of which this rank adds what all ranks know.
+    // Nodes of which this rank adds what all ranks have.
     const std::vector<char> owned = model_.inParts() ? model_.parts[b].owned : std::vector<char>();
     const auto counted = [&](Vector nodal) {
       for (size_t node = 0; node < owned.size(); ++node)

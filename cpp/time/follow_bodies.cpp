@@ -77,7 +77,7 @@ std::string whatTips(const Model& model, const std::vector<Vector>& from, const 
 
 }  // namespace
 
-/// Rows at the end of the increments. \returns the gaps of the state as these rows see them
+/// Rows at the end of the increments. \returns the gaps of the state by these rows
 std::vector<Vector> StepTaker::followTo(const Iterate& iterate, bool keepRows) {
   follow(model_, displacements(state_, iterate), keepRows);
   system_.takeRows();

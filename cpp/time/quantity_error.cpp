@@ -15,7 +15,8 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-/// What a linear quantity asks of z: motions that it has, on top of those of the response (dofs); forces.
+/// The conditions of a linear quantity on z: motions that it has, on top of those of the response (dofs);
+/// forces.
 struct Goal {
   std::vector<Vector> motion, force;
   bool moves = false;          ///< whether there are motions
@@ -44,7 +45,7 @@ class Adjoint {
   }
   [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
 
-  /// z and E eps(z), with displacements of which contact sees the gap that is left.
+  /// z and E eps(z), with displacements whose gap contact leaves open.
   [[nodiscard]] std::vector<Response> operator()(const Goal& goal) const {
     Disturbance to;
     to.adjoint = true;

@@ -2,8 +2,8 @@
 //
 // A reaction, a contact force, a displacement and a mean pressure are linear in the solution, and the first
 // change of an energy is. With z the response of the linear problem (the bodies with the tangent of the run
-// taken as one step, contact closed, sticking and slipping as it is, transposed) to what the quantity asks
-// for, and e(s), e(t) the estimated errors of the stress s and of t = E eps(z) (time/space_error.h),
+// taken as one step, contact closed, sticking and slipping as it is, transposed) to the derivative of the
+// quantity, and e(s), e(t) the estimated errors of the stress s and of t = E eps(z) (time/space_error.h),
 //
 //   J(u) - J(u_h) = a(u - u_h, z - z_h),    about    sum over triangles of (e(s), E^-1 e(t)),
 //

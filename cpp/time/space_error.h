@@ -67,7 +67,7 @@ class SpaceErrorEstimator {
   [[nodiscard]] Compliance complianceOf(const State& state, int body, int triangle) const;
 
   // What data that are not resolved add (data_error.cpp).
-  /// A given distance on a nonmortar edge: |w| |w'| of what the nodes do not see of it [m^2], and the most.
+  /// A given distance on a nonmortar edge: |w| |w'| of what is between the nodes [m^2], and the most.
   struct GivenGap {
     std::array<int, 2> edge;
     double square = 0;

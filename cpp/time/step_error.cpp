@@ -200,7 +200,7 @@ std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
   return system_.respond(felt, solutions_.back(), slip);
 }
 
-/// A law of the strain flows less where more has flowed. Its tangent knows strains that are prescribed:
+/// A law of the strain flows less where more has flowed. Its tangent has strains that are prescribed:
 /// an error x of the flow is to it the strain y with (1 - k a_ss dG/deps) y = x.
 Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
   constexpr double little = 1e-6;
@@ -298,7 +298,7 @@ std::vector<Response> StepTaker::turn() const {
 
 double StepTaker::onset() const {
   constexpr int halvings = 12;
-  // The polynomial through the stages knows how the load bends,
+  // The polynomial through the stages has the curvature of the load,
   // the stress before the first flow how it would go on.
   const std::vector<Matrix> expected = onwards();
   const auto anyFlows = [&](size_t b, const Matrix& stress, const Matrix& strain) {

@@ -80,7 +80,7 @@ class StepTaker {
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
   [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
   /// Where points began to flow during the attempt, about the error of their stress at its end: stages before
-  /// that see no flow, the others only its last direction. No displacement.
+  /// that have no flow, the others only its last direction. No displacement.
   [[nodiscard]] std::vector<Response> turn() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;
@@ -154,7 +154,7 @@ class StepTaker {
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;                        ///< by stage
-  std::vector<Vector> gap0_;                              ///< of the state, as the last stage sees it
+  std::vector<Vector> gap0_;                              ///< of the state, by the rows of the last stage
   std::optional<std::pair<StepData, Iterate>> unsolved_;  ///< the stage that was not
   std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body
   std::vector<Matrix> shift_;                             ///< of the last stage

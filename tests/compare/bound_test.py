@@ -1,4 +1,4 @@
-"""Runs that ask for a guaranteed bound of their error: what they tell, and when there is none."""
+"""Runs with a guaranteed bound of their error: what they report, and when there is none."""
 import cmath
 import json
 import re

@@ -55,7 +55,7 @@ class FrictionScene(OfTwoBlocks):
 
     def test_a_pin_in_a_hole(self):
         """A closed line: the pin is pressed upwards in its hole and turned at its middle until it slips all
-        round where it presses. What friction leaves of the moment is told."""
+        round where it presses. The moment that friction leaves is reported."""
         turn = 'ux = "-y*{0}", uy = "x*{0} + 0.001*min(t, 1)"'.format("0.005*(t < 1 ? 0 : t - 1)")
         self.write(f"""
 [[body]]

@@ -80,23 +80,23 @@ class Sweep:
     def listing(self):
         return {str(path.relative_to(self.folder.parent)) for path in self.folder.parent.rglob("*")}
 
-    def tell(self, what, seed, scene):
+    def report(self, what, seed, scene):
         self.findings.append(what)
         print(f"seed {seed}: {what}\n{scene!r}", flush=True)
 
     def judge(self, command, code, output, seed, scene):
         self.codes[command, code] += 1
         if code not in (0, 1, 2, 3):
-            self.tell(f"{command}: code {code}", seed, scene)
+            self.report(f"{command}: code {code}", seed, scene)
         try:
             lines = output.decode().split("\n")
         except UnicodeDecodeError:
-            return self.tell(f"{command}: no UTF-8", seed, scene)
+            return self.report(f"{command}: no UTF-8", seed, scene)
         if any(len(line) > 5000 or not line.isprintable() or "Traceback" in line for line in lines):
-            self.tell(f"{command}: {lines}", seed, scene)
+            self.report(f"{command}: {lines}", seed, scene)
         if command != "check" and code != 0 and sum(1 for line in lines if line
                                                     and ": warning: " not in line) != 1:
-            self.tell(f"{command}: not one line: {lines}", seed, scene)
+            self.report(f"{command}: not one line: {lines}", seed, scene)
 
     @staticmethod
     def text(rng):
@@ -132,17 +132,17 @@ class Sweep:
                                   capture_output=True)
             self.codes["FreeFEM", done.returncode] += 1
             if done.returncode != 0:
-                self.tell(f"FreeFEM: {done.stdout[-300:]!r}", seed, scene)
+                self.report(f"FreeFEM: {done.stdout[-300:]!r}", seed, scene)
         self.try_study(rng, name, seed, pictures)
         shutil.rmtree(self.folder / "out", ignore_errors=True)
         for path in self.folder.iterdir():
             if path.name not in ("upper.mesh", "lower.mesh", "ran") and path.is_file():
                 path.unlink()
         if more := self.listing() - self.begun:
-            self.tell(f"left: {sorted(more)}", seed, scene)
+            self.report(f"left: {sorted(more)}", seed, scene)
             self.begun |= more
         if os.path.exists("/tmp/ran"):
-            self.tell("/tmp/ran was made", seed, scene)
+            self.report("/tmp/ran was made", seed, scene)
 
     def try_study(self, rng, scene, seed, pictures):
         texts = [self.text(rng) for _ in range(4)]
@@ -201,9 +201,9 @@ class Sweep:
             loaded = {path for path in asked if path.startswith("/page-")}
             more = set(asked) - loaded - {"/all-", "/done-", "/control-", "/favicon.ico"}
             if not batch and "/ran" not in more:
-                self.tell("the browser runs nothing: nothing is tested", 0, "")
+                self.report("the browser runs nothing: nothing is tested", 0, "")
             elif batch and (more or len(loaded) != len(batch) or not done.is_set()):
-                self.tell(f"the browser opened {len(loaded)} of {len(batch)} pages and asked for "
+                self.report(f"the browser opened {len(loaded)} of {len(batch)} pages and asked for "
                           f"{sorted(more)}", batch[0], "")
             opened += len(loaded)
         server.shutdown()

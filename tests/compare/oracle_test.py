@@ -48,7 +48,7 @@ class Oracle(unittest.TestCase):
             self.assertRegex(done.stderr, rf"\Amortier: [^\n]*: {reason}[^\n]*\n\Z")
 
 
-# Fault, file, right words, wrong words, scene and what tells its case, what then differs (empty:
+# Fault, file, right words, wrong words, scene and what marks its case, what then differs (empty:
 # or FreeFEM gives up).
 FAULTS = [
     ("normals mirrored", "supports", "dx = dy; dy = -tx;", "dx = dy; dy = tx;", "turned", "as it stands",
@@ -86,8 +86,8 @@ FAULTS = [
      "ring", "mortar as it stands", "displacement"),
     ("row functions end with the hats", "coupling", "row(to(e1)) < 0 ? 1. : part, ", "part, ", "punch",
      "sides swapped", "displacement"),
-    ("conditions at held ends", "coupling", "sees = sees && !(merged",
-     "sees = sees || false && !(merged", "stack",
+    ("conditions at held ends", "coupling", "paired = paired && !(merged",
+     "paired = paired || false && !(merged", "stack",
      "mortar held", ""),
     ("no conditions at held ends", "coupling", '(variant != "interpolation" || mortarHeld)', "true", "stack",
      "interpolation held", ""),
@@ -116,8 +116,8 @@ FAULTS = [
     ("no strain around the axis", "strain", "Vh(i*nq + at) = shape/radius(at);", "Vh(i*nq + at) = 0;",
      "sphere", "mortar as it stands", ""),
     ("a section for a ring", "strain", "radius *= 2*pi;", "radius = 1;", "sphere", "mortar as it stands", ""),
-    ("contact of a section", "coupling", "seeNodes();\n      if (ring) weight *= ",
-     "seeNodes();\n      if (false) weight *= ", "sphere", "mortar as it stands", "displacement"),
+    ("contact of a section", "coupling", "pairNodes();\n      if (ring) weight *= ",
+     "pairNodes();\n      if (false) weight *= ", "sphere", "mortar as it stands", "displacement"),
     ("tractions on a section", "supports", "qfe = qf1pElump)(depth*(load)/3.)", "qfe = qf1pElump)((load)/3.)",
      "sloped", "a cone that flows", "displacement"),
     ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),

@@ -20,7 +20,7 @@ ON_THE_AXIS = 2760
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
 RINGING = 287
-# The error of a step is told too large until it is as short as time resolves,
+# The error of a step is estimated too large until it is as short as time resolves,
 # where rounding makes it a little longer.
 SHORTEST = 275
 # Bodies overlap at t = 0, and the stress relaxes sooner than a step could end.

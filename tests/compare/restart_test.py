@@ -72,7 +72,7 @@ MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mi
 
 class Restart(InFolder):
     def run_mortier(self, *arguments, code=0):
-        """Runs to the end; what is told where that is not the result."""
+        """Runs to the end; the message where that is not the result."""
         return self.mortier("run", *arguments, "--quiet", code=code, timeout=300).stderr
 
     def stop(self, *arguments, after, pause=0.0, by=signal.SIGKILL):

@@ -1,4 +1,4 @@
-"""The file of a study: what is wrong with it is told in one line, and nothing is overwritten."""
+"""The file of a study: what is wrong with it is reported in one line, and nothing is overwritten."""
 import unittest
 
 from study_support import SPACE, StudyTest

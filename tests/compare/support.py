@@ -57,7 +57,7 @@ class InFolder(unittest.TestCase):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 
     def mortier(self, *arguments, code=0, **options):
-        """Runs the program in the folder: it ends with this code, and tells one line where that is not 0."""
+        """Runs the program in the folder: it ends with this code, and prints one line where that is not 0."""
         done = mortier(*arguments, cwd=self.folder, **options)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertEqual(len(told(done.stderr)), 0 if code == 0 else 1, done.stderr)

@@ -50,7 +50,7 @@ Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar, Plane 
   TriangleMesh disc =
       halfDiscMesh({.lowest = {0, 0}, .radius = radius, .core = core, .cells = cells}, Cut::both);
   // Not the nodes of the disc, and neither mesh much coarser than the other where they touch: pressures
-  // of conditions that one body cannot tell apart alternate from node to node, on a wall those of any that
+  // of conditions that one body cannot distinguish alternate from node to node, on a wall those of any that
   // is finer.
   const int blockCells = cellsOfBlock > 0 ? cellsOfBlock : cells * (young > blockYoung ? 3 : 5);
   const double grading = cellsOfBlock > 0 ? 10 : 30;

@@ -115,7 +115,7 @@ TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
   print("unresolved jump", run);
   std::cout << ", estimate " << run.timeError << "\n";
   EXPECT_EQ(run.status, Status::converged) << run.reason;
-  EXPECT_GT(run.timeError, tolerance);  // which is told
+  EXPECT_GT(run.timeError, tolerance);  // which is reported
   EXPECT_NE(run.shortfall.find("above tolerance 0.001"), std::string::npos) << run.shortfall;
   EXPECT_EQ(begun, 1);
   EXPECT_LE(run.steps, 300);

@@ -79,15 +79,15 @@ TEST(Goal, takesNoMoreUnknownsThanTheEnergyNormAndHalfOfEqualMeshes) {
   const std::vector<Found> energy = refined(Way::energy, 4);
   const std::vector<Found> equal = refined(Way::equal, 3);
   const double exact = quantity.back().force;
-  const auto tell = [&](const std::string& name, const std::vector<Found>& found) {
+  const auto report = [&](const std::string& name, const std::vector<Found>& found) {
     for (const Found& each : found)
       std::cout << name << ": " << each.unknowns << " unknowns, force " << each.force << ", off "
                 << 100 * std::abs(each.force - exact) / exact << " %, guaranteed " << 100 * each.error / exact
                 << " %\n";
   };
-  tell("quantity", quantity);
-  tell("energy", energy);
-  tell("equal", equal);
+  report("quantity", quantity);
+  report("energy", energy);
+  report("equal", equal);
   const double error = quantity.back().error;
   const double needed = quantity.back().unknowns;
   std::cout << "for the last one " << needed << ", " << unknownsFor(error, energy) << ", "

@@ -205,7 +205,7 @@ double slope(const std::vector<double>& sizes, const std::vector<double>& errors
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// A smooth solution: order degree + 1 in the displacement, degree in the energy; the recovered stress tells
+// A smooth solution: order degree + 1 in the displacement, degree in the energy; the recovered stress shows
 // the error.
 TEST(Quadratic, ordersOfASmoothSolution) {
   constexpr double scatter = 0.15;  // of fits over meshes that are not nested

@@ -47,7 +47,7 @@ Wrench wrenchOf(const Vector& forces, const Body& body) {
   return sum;
 }
 
-/// As users are told it.
+/// As it is reported.
 Wrench quantityOf(const Model& model, const State& state, Kind kind, int body, int label) {
   std::vector<Quantity> quantities;
   const Component third = model.bodies[body].space() != nullptr ? Component::z : Component::moment;

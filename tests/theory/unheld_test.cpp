@@ -98,8 +98,8 @@ Model apart(double distance, const std::shared_ptr<const Material>& material, co
 }
 
 // A body that contact holds only once it has closed travels there, however small its load is beside its
-// stiffness; the stress is then uniform. What a stress can be told by is the rounding of E times the distance
-// over the size.
+// stiffness; the stress is then uniform. What a stress can be measured by is the rounding of E times the
+// distance over the size.
 TEST(Unheld, bodiesTravelUntilContactCloses) {
   constexpr double distance = 0.1;
   for (const CouplingKind coupling :

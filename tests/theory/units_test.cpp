@@ -2,9 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <iostream>
 
+#include "material/deviatoric.h"
+#include "mesh/shape.h"
 #include "theory/hard_cases.h"
+#include "theory/scenes.h"
+#include "time/space_error.h"
 
 namespace mortier::units_test {
 
@@ -64,6 +69,39 @@ TEST(Units, millimetresAndMegapascalsTakeAsManyIterations) {
       EXPECT_EQ(other.maxIterationsInAStep, one.maxIterationsInAStep);
     }
   }
+}
+
+// In space the gaps between surfaces are a part of the estimate as well.
+TEST(Units, ofSpaceDoNotChangeTheEstimatedError) {
+  const auto solved = [](double length, double stress) {
+    const auto still = [](const SpacePoint&, double) { return 0.0; };
+    const auto pressure = [=](const SpacePoint& x, double t) {
+      return -stress * t * (1 + x.x() * x.y() / (length * length));
+    };
+    const auto box = [&](double lowest, int cells) {
+      return cuboidMesh(
+          {{0, 0, lowest * length}, {length, length, (lowest + 1) * length}, {cells, cells, cells}});
+    };
+    const auto material = elasticMaterial({100 * stress, 0.3}, Plane::none);
+    constexpr int bottom = 1;
+    constexpr int top = 3;
+    Model model;
+    model.bodies.emplace_back(
+        "upper", box(0, 2), material,
+        SpaceConditions{{{4, spaceX, still}, {5, spaceY, still}}, {{top, spaceZ, pressure}}}, 1);
+    model.bodies.emplace_back(
+        "lower", box(-1, 3), material,
+        SpaceConditions{{{4, spaceX, still}, {5, spaceY, still}, {bottom, spaceZ, still}}, {}}, 1);
+    addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
+    const auto [state, report] = scenes::run(model, 1, 1);
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    double sum = 0;
+    for (const ErrorEstimate& estimate : SpaceErrorEstimator(model)(state)) sum += estimate.error.sum();
+    return sum / (stress * std::pow(length, 3));
+  };
+  const double one = solved(1, 1);
+  EXPECT_NEAR(solved(1e3, 1e-6), one, 1e-9 * one);
+  EXPECT_NEAR(solved(1e-3, 1e6), one, 1e-9 * one);
 }
 
 }  // namespace mortier::units_test

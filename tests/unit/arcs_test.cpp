@@ -52,7 +52,7 @@ TEST(Arcs, circlesAreFoundWhateverTheirSizeAndSense) {
   }
 }
 
-TEST(Arcs, polygonsOfFewEdgesAreTold) {
+TEST(Arcs, polygonsOfFewEdgesAreReported) {
   constexpr double least = pi / 6;
   constexpr double rounding = 1e-9;
   const auto polygon = [](int edges, double ratio) {

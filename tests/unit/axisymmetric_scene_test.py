@@ -1,4 +1,4 @@
-"""Scenes of bodies of revolution: what they are told in whole rings, and what is refused."""
+"""Scenes of bodies of revolution: numbers of whole rings, and what is refused."""
 import csv
 import json
 import math

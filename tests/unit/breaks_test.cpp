@@ -76,7 +76,7 @@ TEST(Courses, whatAStepSeesExactlyIsNotMissed) {
   EXPECT_EQ(unseen(constant, {1}, 0, 1), 0);
 }
 
-TEST(Courses, dataThatCannotBeSampledAreTold) {
+TEST(Courses, dataThatCannotBeSampledAreReported) {
   EXPECT_TRUE(resolve([](double t) { return std::sin(2 * pi * 1000 * t); }, 0, 1).resolved);
   EXPECT_FALSE(resolve([](double t) { return std::sin(1e9 * t); }, 0, 1).resolved);
   EXPECT_FALSE(resolve([](double t) { return std::sin(3e5 * t) > 0 ? 1.0 : 0.0; }, 0, 1).resolved);

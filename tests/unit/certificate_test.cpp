@@ -67,7 +67,7 @@ TEST(Certificate, ofASolutionIsRounding) {
   EXPECT_LE(found.rounding, 1e-13);
 }
 
-// The rounding of displacements is told over the stresses that are there, and this body has none.
+// The rounding of displacements is taken over the stresses that are there, and this body has none.
 TEST(Certificate, hasNoRoundingOfABodyThatWasMovedAndIsFreeOfStress) {
   const Model model = squares(false, 0);
   State state0 = initialState(model);

@@ -26,7 +26,7 @@ struct Taken {
     taker.emplace(model, state, memory, plan.scheme, options);
   }
 
-  /// One step; as march() does, the run is told of it.
+  /// One step; as in march(), the run records it.
   StepReport advance() {
     StepReport report;
     report.step = memory.run.steps + 1;
@@ -197,7 +197,7 @@ TEST(Controller, aTrialEndsWhenItHasCostTwiceWhatItTookToMissTheTolerance) {
   const double local = own.local;
   const double scale = own.scale.stress;
   ASSERT_TRUE(taken.controller.beginAgain(taken.state));
-  EXPECT_EQ(own.scale.stress, scale);  // the run so far does not tell how large the stress will be
+  EXPECT_EQ(own.scale.stress, scale);  // the run so far does not show how large the stress will be
   EXPECT_NEAR(own.local / local, std::pow(0.4 / 2, 1.5), 1e-12);
   EXPECT_EQ(taken.memory.run.pilotIterations, before + 40);
   EXPECT_FALSE(taken.controller.abandons());

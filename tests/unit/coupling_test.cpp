@@ -212,7 +212,7 @@ Trace evenTrace(double begin, double size, int elements) {
 }
 
 // Eight elements on two: vertices of the mortar side keep a row each. A nonmortar side that is soft enough to
-// tell its nodes apart keeps all.
+// distinguish its nodes keeps all.
 TEST(Coupling, coarsenedRowsAreThoseThatTheMortarTraceTellsApart) {
   const Trace fine = evenTrace(0, 0.125, 8);
   const Trace coarse{0, 0.5, 1};
@@ -319,7 +319,7 @@ std::vector<Drawn> drawnDistances(double at) {
 Vector distancesOf(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree,
                    const Drawn& drawn) {
   return couple(kind, straightPart(nonmortar, degree), straightFacing(mortar, degree),
-                [&](int, double s, const Sight&) { return drawn(s); })
+                [&](int, double s, const FacingPair&) { return drawn(s); })
       .distance;
 }
 

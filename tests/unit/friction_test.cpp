@@ -286,7 +286,7 @@ TEST(Friction, solutionsOfNegativeIndexAreLeft) {
 }
 
 // A node on a spring at a slope, W = [1, c; c, 1], mu c > 1, drawn off by a and along by b > 2a: it lets go,
-// or it is jammed and sticks; between the two it slips and gives way, with det A = 1 - mu c < 0.
+// or it is jammed and sticks; between the two it slips, with det A = 1 - mu c < 0.
 TEST(Friction, wedgeHoldsOrLetsGo) {
   constexpr double c = 0.8;
   constexpr double mu = 2;

@@ -1,4 +1,4 @@
-// The march as its callers see it, on a square in uniform stress: what it reports, where it stops, how it
+// The march as its callers have it, on a square in uniform stress: what it reports, where it stops, how it
 // resumes.
 #include "time/march.h"
 
@@ -166,7 +166,7 @@ TEST(March, whatCannotBeSolvedIsCutAndThenEndsTheRunWithTheLastGoodState) {
   expectStress(result.state, result.state.time);
 }
 
-// Backward Euler's strain tells at which times the parts end: halves, quarters and so on of the step.
+// Backward Euler's strain shows at which times the parts end: halves, quarters and so on of the step.
 TEST(March, thePartsOfAStepThatIsCutAreEqual) {
   constexpr double last = 0.46;
   const Model model = square([](double t) { return t <= last ? 4 * t : NAN; });

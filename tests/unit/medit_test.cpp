@@ -215,7 +215,7 @@ TEST(Medit, regionsAreBodies) {
             file.path + ": no region 9, expected one of 7, 8");
   EXPECT_EQ(messageOf([&] { readMedit(file.path, {"7x"}); }),
             file.path + ": no region 7x, expected one of 7, 8");
-  // A fault is told with its line, whatever is kept.
+  // A fault is reported with its line, whatever is kept.
   const TemporaryFile broken(replaced(text, "1 3 4 8", "1 3 5 8"));
   EXPECT_NE(messageOf([&] { readMedit(broken.path, {"7"}); }).find(":17: triangle 2"), std::string::npos);
 }

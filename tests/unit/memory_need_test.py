@@ -1,5 +1,5 @@
-"""Contact keeps dense matrices over its nodes, but for long lines without friction: what a run needs is told
-before it, and refused where there is not so much."""
+"""Contact keeps dense matrices over its nodes, but for long lines without friction: what a run needs is
+reported before it, and refused where there is not so much."""
 import json
 import re
 import resource

@@ -1,4 +1,4 @@
-"""mortier mesh: families of meshes, and what is told about them."""
+"""mortier mesh: families of meshes, and what is reported of them."""
 import sys
 import unittest
 from pathlib import Path

@@ -246,7 +246,7 @@ TEST(Overstress, yieldsWhereItsStressAndItsStrainSay) {
   const Matrix fresh = Eigen::Vector3d(0, 0, elastic);
   EXPECT_FALSE(flows({1.3, 1, 1, 1, 10}, &behind));  // |1.5 - 10 0.1 2/3| sqrt(3/2) < 1.3
   EXPECT_TRUE(flows({1.3, 1, 1, 1, 10}, &fresh));
-  EXPECT_TRUE(flows({9, 1, 1, 1, 10}, nullptr));  // it cannot be told
+  EXPECT_TRUE(flows({9, 1, 1, 1, 10}, nullptr));  // it is not known
 }
 
 TEST(Overstress, rejectsWhatIsNoLaw) {

@@ -122,7 +122,7 @@ TEST(Perzyna, newtonEndsAtTheSolvedStress) {
   }
 }
 
-// Points are computed in batches; none may see its neighbours, and the last batch is not full.
+// Points are computed in batches; none may use its neighbours, and the last batch is not full.
 TEST(Perzyna, pointsOfABatchAreIndependent) {
   constexpr int points = 43;
   constexpr double weight = 1e-3;

@@ -193,7 +193,8 @@ TEST(PlaneStrain, pressureNeverFlowsAndRatesAreDeviators) {
   EXPECT_EQ(rate.norm(), 0);
 }
 
-// Points are computed in batches; none may see its neighbours, the last batch is not full, and NaN is told.
+// Points are computed in batches; none may use its neighbours, the last batch is not full, and NaN is
+// reported.
 TEST(PlaneStrain, pointsOfABatchAreIndependent) {
   constexpr int points = 43;
   std::mt19937 random(3);

@@ -51,7 +51,7 @@ TEST_F(ResolvedScenes, pressuresDoNotAlternateByDefault) {
   EXPECT_EQ(contact({"contact.swap=true", fine}).variant, CouplingKind::coarsened);
   EXPECT_EQ(contact({"contact.swap=true", fine, "body.lower.material.young=3e11"}).choice,
             "fewer nodes as its edges are 2 times as short");
-  // A prescribed side is a wall: it follows no pressure, and the other body tells all nodes apart.
+  // A prescribed side is a wall: it follows no pressure, and the other body distinguishes all nodes.
   const std::string wall = "body.upper.boundary=[{label=1, uy=\"-t\"}]";
   EXPECT_EQ(contact({"contact.swap=true", fine, wall}).variant, CouplingKind::mortar);
   EXPECT_EQ(contact({"contact.swap=true", stiff, wall}).variant, CouplingKind::mortar);

@@ -1,4 +1,4 @@
-"""Units of a scene: numbers with their own are converted, labels are the scene's, wrong ones are told."""
+"""Units of a scene: numbers with their own are converted, labels are the scene's, wrong ones are refused."""
 import csv
 import json
 import sys

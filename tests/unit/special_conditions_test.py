@@ -1,4 +1,4 @@
-"""Contact conditions without a force of their own are told, with their number and the reason,
+"""Contact conditions without a force of their own are reported, with their number and the reason,
 and only then."""
 import json
 import sys
@@ -27,7 +27,7 @@ def lower_held(scene):
 
 class SpecialConditions(OfTwoBlocks):
     def run_scene(self, scene, *settings):
-        """What is told of interface and conditions, and the numbers of the summary."""
+        """The report of interface and conditions, and the numbers of the summary."""
         self.write(scene)
         log = self.mortier("run", "scene.toml", "--set", "time.steps=2", *settings).stdout
         summary = json.loads(self.read("out/scene/summary.json"))

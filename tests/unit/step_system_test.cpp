@@ -154,7 +154,7 @@ TEST(StepSystem, responseIsTheDerivativeOfTheSolution) {
   }
 }
 
-TEST(StepSystem, whyAStepIsNotSolvedIsToldByItsReason) {
+TEST(StepSystem, aStepThatIsNotSolvedHasItsReason) {
   const auto elastic = elasticMaterial({100, 0.3});
   const State state0 = initialState(squares(elastic));
   {

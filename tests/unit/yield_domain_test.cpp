@@ -25,7 +25,7 @@ struct Projected {
   double z = 0;
 };
 
-/// The domain as one stress sees it.
+/// The domain at one stress.
 class OneStress {
  public:
   OneStress(double yieldStress, const Array3d& w)
