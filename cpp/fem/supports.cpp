@@ -83,24 +83,30 @@ Point upwards(const Point& direction) {
   return direction.y() < 0 ? Point(-direction) : direction;
 }
 
-/// By the angle from the x axis.
-bool isBefore(const Point& a, const Point& b) {
-  return cross(a, b) > 0;
-}
+/// A direction and the number by which it is sorted: the sign of a cross product is no order, as that of a
+/// direction with itself may be positive where products are rounded once.
+struct Upwards {
+  explicit Upwards(const Point& either) : direction(upwards(either)) {
+    angle = std::atan2(direction.y(), direction.x());
+  }
+
+  Point direction;   ///< unit, upwards
+  double angle = 0;  ///< from the x axis, 0 to pi
+};
 
 /// The axis or the mean of all directions that are the same as this one: nodes of a straight side may lie
 /// beside it by the rounding of their coordinates, and would hold the body along the side.
-/// \param all  upwards, sorted
-Point oneOf(const std::vector<Point>& all, const Point& direction) {
-  const Point own = upwards(direction);
+/// \param all  by their angles, ascending
+Point oneOf(const std::vector<Upwards>& all, const Point& direction) {
+  const auto& [own, angle] = Upwards(direction);
   Point mean(0, 0);
   for (const Point& same : {Point(1, 0), Point(0, 1)})
     if (parallel(same, own)) mean = own.dot(same) > 0 ? same : Point(-same);
   if (mean.isZero(0)) {
-    const Point aside(-sameDirection * own.y(), sameDirection * own.x());
-    for (auto each = std::lower_bound(all.begin(), all.end(), own - aside, isBefore);
-         each != all.end() && parallel(*each, own); ++each)
-      mean += *each;
+    const auto first = std::lower_bound(all.begin(), all.end(), angle - sameDirection,
+                                        [](const Upwards& each, double least) { return each.angle < least; });
+    for (auto each = first; each != all.end() && each->angle < angle + sameDirection; ++each)
+      mean += each->direction;
     mean.normalize();
   }
   return mean.dot(direction) > 0 ? mean : Point(-mean);
@@ -133,12 +139,13 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
     const Point n = normalAt(sides, node, *side);
     return conditions[c].component == alongNormal ? n : Point(-n.y(), n.x());
   };
-  std::vector<Point> directions;
+  std::vector<Upwards> directions;
   for (size_t c = 0; c < conditions.size(); ++c)
     for (size_t e = 0; isTurned(conditions[c].component) && e < nodes.boundary.size(); ++e)
       if (conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge]))
-        for (const int node : nodes.boundary[e].nodes) directions.push_back(upwards(directionAt(c, e, node)));
-  std::sort(directions.begin(), directions.end(), isBefore);
+        for (const int node : nodes.boundary[e].nodes) directions.emplace_back(directionAt(c, e, node));
+  std::sort(directions.begin(), directions.end(),
+            [](const Upwards& a, const Upwards& b) { return a.angle < b.angle; });
   // Axes first: a normal that is one of them up to rounding is left out.
   for (const bool turned : {false, true})
     for (size_t c = 0; c < conditions.size(); ++c) {

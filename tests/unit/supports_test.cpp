@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fem/rigid_modes.h"
+#include "mesh/generate.h"
 #include "unit/dense_reference.h"
 #include "unit/plate.h"
 
@@ -184,6 +185,47 @@ TEST(Supports, incrementsKeepWhatIsFree) {
     EXPECT_NEAR(d.dot(increment.segment<2>(dof)), moves ? 0.5 : 0, 4 * rounding);
     EXPECT_NEAR(t.dot((increment - before).segment<2>(dof)), 0, 4 * rounding);
     EXPECT_NEAR(d.dot(small.segment<2>(dof)), 0, 1e-32);
+  }
+}
+
+// Half of all directions have a positive cross product with themselves where products are rounded once.
+TEST(Supports, nodesOfAStraightSideHaveOneDirectionWhateverItsSlope) {
+  constexpr double rounding = 1e-13;
+  constexpr int slopes = 120;
+  for (int i = 0; i < slopes; ++i) {
+    const double angle = (i + 0.3) * 2 * M_PI / slopes;
+    const Eigen::Rotation2Dd turn(angle);
+    for (const int cells : {16, 20, 45})
+      for (const Component component : {alongNormal, alongTangent}) {
+        TriangleMesh mesh = rectangleMesh(Rectangle{{0, 0}, {2, 1}, cells, 2});
+        for (Point& x : mesh.vertices) x = turn * x;
+        const Supports supports(mesh, {{1, component, constant(0)}, {3, component, constant(0)}});
+        ASSERT_EQ(supports.nodes().size(), 2 * (cells + 1u));
+        EXPECT_TRUE(supports.further().empty());
+        const Point expected = turn * (component == alongNormal ? Point(0, 1) : Point(1, 0));
+        const Point& first = supports.nodes()[0].directions[0];
+        EXPECT_LE(std::abs(cross(first, expected)), rounding) << angle;
+        for (const NodeSupport& support : supports.nodes()) {
+          ASSERT_EQ(support.count, 1);
+          const Point& d = support.directions[0];
+          EXPECT_TRUE(d == first || d == Point(-first)) << "slope " << angle << ", node " << support.node;
+        }
+      }
+  }
+}
+
+// A curve of many nodes, whose directions are as many.
+TEST(Supports, everyDirectionOfACurveIsFound) {
+  constexpr double same = 1e-5;  // directions whose sine is below it have their mean
+  std::mt19937 random(5);
+  for (const int around : {17, 100, 1000}) {
+    const TriangleMesh mesh = ring(around, random);
+    const Supports supports(mesh, {{1, alongNormal, constant(0)}, {2, alongNormal, constant(0)}});
+    ASSERT_EQ(supports.nodes().size(), mesh.vertices.size());
+    for (const NodeSupport& support : supports.nodes()) {
+      const Point r = mesh.vertices[support.node].normalized();
+      EXPECT_LE(std::abs(cross(support.directions[0], r)), same) << support.node;
+    }
   }
 }
 
