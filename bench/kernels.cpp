@@ -64,9 +64,8 @@ void coupling(benchmark::State& run) {
   for (int i = 0; i <= cells.upper; ++i) nonmortar[i] = static_cast<double>(i) / cells.upper;
   for (int i = 0; i <= cells.lower; ++i) mortar[i] = static_cast<double>(i) / cells.lower;
   const CouplingKind kind = run.range(1) == 0 ? CouplingKind::mortar : CouplingKind::interpolation;
-  const SmoothPart part = straightPart(nonmortar);
-  const FacingLine facing = straightFacing(mortar);
-  for ([[maybe_unused]] const auto turn : run) benchmark::DoNotOptimize(couple(kind, part, facing));
+  const StraightLines lines(nonmortar, mortar);
+  for ([[maybe_unused]] const auto turn : run) benchmark::DoNotOptimize(couple(kind, lines.refinement));
 }
 
 void strain(benchmark::State& run) {

@@ -100,6 +100,7 @@ double Rounds::timeShare() const {
 
 ResolvedScene Rounds::scene() const {
   ResolvedScene scene{description_, {}};
+  scene.description.time.overlapEnds = false;  // coarse meshes miss contact that finer ones find
   for (size_t b = 0; b < description_.bodies.size(); ++b)
     if (meshes_.inSpace())
       scene.spaceMeshes.push_back(meshes_.spaceMesh(b));
@@ -121,7 +122,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   const double error = corrected_ + result.time;
   // Bounds of coarse meshes are many times the error, and fall faster.
   const bool far = error > least_ * asked && corrected_ > bounded_ / 2;
-  if (done_ > 1 && error <= leastOf(asked) * asked && !far) {
+  if (done_ > 1 && error <= leastOf(asked) * asked && !far && !result.overlaps) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
     least_ = careful * corrected_ / std::min(*bound, 1.0);
@@ -131,7 +132,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
-  if (done_ > 1 && corrected_ <= ofMeshes) {
+  if (done_ > 1 && corrected_ <= ofMeshes && !result.overlaps) {
     if (lastSteps)
       return stop("the error of the steps, " + digits(100 * result.time) + " %" + ", does not fall");
     timeTolerance_ = timeShare();
@@ -156,7 +157,7 @@ Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
   meshes_.learn(result.errors);
   const double asked = std::sqrt(description_.accuracy.tolerance);
   least_ = aim.proved ? 1 : leastShare;
-  if ((aim.proved || done_ > 1) && corrected_ <= least_ * asked) return Verdict::reached;
+  if ((aim.proved || done_ > 1) && corrected_ <= least_ * asked && !result.overlaps) return Verdict::reached;
   return goOn(result, least_ * asked, seconds);
 }
 

@@ -74,6 +74,7 @@ struct RoundResult {
   /// bound is not wanted.
   std::function<std::optional<double>()> bound = {};
   std::optional<AimedError> aim = {};  ///< where refinement aims at a quantity
+  bool overlaps = false;               ///< whether bodies overlap where no contact holds them apart
 };
 
 class Rounds {

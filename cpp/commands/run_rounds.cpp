@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/interrupt.h"
 #include "commands/run.h"
 #include "report/clock.h"
@@ -52,6 +53,12 @@ AimedError aimOf(const Attempt& round) {
   return {"", value, proved ? enclosure.error(value) : *enclosure.estimate, proved, enclosure.parts};
 }
 
+bool overlaps(const Attempt& round) {
+  const RunReport& report = round.solved.report;
+  const bool never = report.peaks.contactForce.value == 0;
+  return report.overlap.refused() || (never && !report.overlap.explained);
+}
+
 }  // namespace
 
 Rounds::Verdict Run::solveRound(const std::shared_ptr<Attempt>& attempt, std::vector<RoundFacts>& done) {
@@ -65,6 +72,7 @@ Rounds::Verdict Run::solveRound(const std::shared_ptr<Attempt>& attempt, std::ve
   const double end = processSeconds();
   const double time = round.solved.report.timeError;
   RoundResult result{errors.errors(), errors.energy(), time, end - begin};
+  result.overlaps = overlaps(round);
   if (!round.facts.aim.empty()) {
     round.solved.accuracy.bound = boundOf(round);
     result.aim = aimOf(round);
@@ -114,7 +122,8 @@ void Run::solveRounds() {
     if (shortfall_.empty()) shortfall_ = next->solved.report.reason;
     if (!shortfall_.empty()) {
       shortfall_.insert(0, "round " + std::to_string(done.size() + 1) + ": ");
-    } else if (verdict == Rounds::Verdict::reached || error(*next) <= error(*attempt_)) {
+    } else if (verdict == Rounds::Verdict::reached || overlaps(*next) < overlaps(*attempt_) ||
+               (overlaps(*next) == overlaps(*attempt_) && error(*next) <= error(*attempt_))) {
       attempt_ = std::move(next);
       aside = false;
     } else {
@@ -124,6 +133,10 @@ void Run::solveRounds() {
   if (verdict == Rounds::Verdict::notReached && shortfall_.empty()) shortfall_ = rounds_->reason();
   if (aside) bringBack(temporary_, attempt_->solved.files);
   attempt_->facts.rounds = std::move(done);
+  if (!overlaps(*attempt_)) return;
+  RunReport& report = attempt_->solved.report;
+  report.status = Status::failed;
+  report.reason = formatted("t = %g: ", report.overlap.time) + report.overlap.words;
 }
 
 }  // namespace mortier

@@ -31,12 +31,12 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
 /// Gauss's rule of four points on every segment: calls at(segment, rows, s,
 /// values of the row functions, weight).
 template <class At>
-void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const RowFunctions& rows, At at) {
+void atGaussPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
   constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                          0.8611363115940526};
   constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                           0.3478548451374538};
-  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
+  for (const Segment& segment : refinement.segments()) {
     const EdgeNodes row = rows.at(segment.nonmortar);
     if (row.maxCoeff() < 0) continue;
     const double half = (segment.end - segment.begin) / 2;
@@ -59,19 +59,20 @@ struct Integrals {
 };
 
 /// \param own  directions of contact at the nodes of the rows, or empty: no motion is subtracted
-Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
-                    const RowFunctions& rows, const std::vector<Point>& own, bool axisymmetric) {
+Integrals integrate(const CommonRefinement& refinement, const DistanceAt& distance, const RowFunctions& rows,
+                    const std::vector<Point>& own, bool axisymmetric) {
+  const SmoothPart& part = refinement.part();
   Integrals result;
   result.distance = Vector::Zero(rows.count());
   result.least = Vector::Constant(rows.count(), std::numeric_limits<double>::infinity());
   result.lengths = Vector::Zero(rows.count());
   atGaussPoints(
-      part, mortar, rows,
+      refinement, rows,
       [&](const Segment& segment, const EdgeNodes& row, double s, const EdgeValues& chi, double weight) {
-        const FacingPair facing = facingPair(part, mortar, segment, s);
+        const FacingPair facing = refinement.pairAt(segment, s);
         const double g0 = distance(segment.nonmortar, s, facing);
         const EdgeNodes nodes = part.nodesOf(segment.nonmortar);
-        const EdgeNodes across = mortar.nodesOf(segment.mortar);
+        const EdgeNodes across = refinement.mortar().nodesOf(segment.mortar);
         const double depth =
             axisymmetric ? circumference(part.at(segment.nonmortar, part.partAt(segment.nonmortar, s))) : 1;
         for (Eigen::Index i = 0; i < row.size(); ++i) {
@@ -181,18 +182,63 @@ Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& leas
 }
 
 /// Whether these are lines that have moved and were straight.
-bool drawnStraight(const SmoothPart& part, const FacingLine& mortar) {
-  return part.drawn && part.drawn->straight &&
-         std::all_of(mortar.geometry.begin(), mortar.geometry.end(),
-                     [](const FacingElement& each) { return each.drawn && each.drawn->straight; });
+bool drawnStraight(const CommonRefinement& refinement) {
+  const auto isStraight = [](const auto& drawn) { return drawn && drawn->straight; };
+  return isStraight(refinement.part().drawn) &&
+         std::all_of(refinement.segments().begin(), refinement.segments().end(), [&](const Segment& piece) {
+           return isStraight(refinement.mortar().geometry[piece.mortar].drawn);
+         });
+}
+
+/// A corner contact and the row of its vertex.
+struct PointRow {
+  CornerContact corner;
+  int row = 0;
+};
+
+std::vector<PointRow> pointRows(const CommonRefinement& refinement, const RowFunctions& rows) {
+  std::vector<PointRow> result;
+  for (const CornerContact& corner : refinement.corners()) {
+    const auto found = std::find(rows.nodes().begin(), rows.nodes().end(), corner.vertex);
+    if (found != rows.nodes().end())
+      result.push_back({corner, static_cast<int>(found - rows.nodes().begin())});
+  }
+  return result;
+}
+
+/// Replaces a row, in the part of the weight of the corner, by the jump at the corner.
+void putPointRow(const CommonRefinement& refinement, const CornerContact& corner, int row,
+                 const DistanceAt& distance, Coupling& coupling) {
+  const int e = corner.nonmortar;
+  const double weight = corner.weight;
+  const FacingPair facing = refinement.pairAt({e, corner.mortar, corner.s, corner.s}, corner.s);
+  Triplets point1;
+  Triplets point2;
+  Triplets given;
+  const EdgeNodes nodes = refinement.part().nodesOf(e);
+  addEntries(row, nodes, weight * facing.phi, facing.normal, point1);
+  addEntries(row, refinement.mortar().nodesOf(corner.mortar), -weight * facing.psi, facing.normal, point2);
+  for (Eigen::Index k = 0; k < nodes.size(); ++k) given.emplace_back(row, nodes[k], weight * facing.phi[k]);
+  Vector kept = Vector::Ones(coupling.distance.size());
+  kept[row] = 1 - weight;
+  const auto put = [&](Sparse& rows, const Triplets& point) {
+    const Sparse other = kept.asDiagonal() * rows;
+    rows = (other + assembled(rows.rows(), rows.cols(), point)).pruned();
+  };
+  put(coupling.C1, point1);
+  put(coupling.C2, point2);
+  put(coupling.N, given);
+  coupling.distance[row] = kept[row] * coupling.distance[row] + weight * distance(e, corner.s, facing);
 }
 
 }  // namespace
 
-Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric,
-                double stiffness, const std::vector<char>& only) {
-  const RowFunctions rows(kind, part, mortar, merged, stiffness, only);
+Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const DistanceAt& distance,
+                const std::vector<char>& merged, bool axisymmetric, double stiffness,
+                const std::vector<char>& only) {
+  const SmoothPart& part = refinement.part();
+  const MortarLine& mortar = refinement.mortar();
+  const RowFunctions rows(kind, refinement, merged, stiffness, only);
   const Eigen::Index n = rows.count();
   std::vector<FacingNode> atRows;  // what their nodes face
   std::vector<Point> own;          // directions there
@@ -200,7 +246,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   Vector distances(n);
   if (!hasMeans(kind))
     for (int i = 0; i < n; ++i) {
-      atRows.push_back(facingOfNode(part, mortar, rows.nodes()[i]));
+      atRows.push_back(refinement.facingOfNode(rows.nodes()[i]));
       const auto& [facing, place] = atRows.back();
       own.push_back(facing.normal);
       addEntries(i, EdgeNodes{{rows.nodes()[i]}}, EdgeValues::Ones(1), own.back(), ownMotion);
@@ -210,7 +256,18 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
   };
   if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}, Vector(), {}};
-  const Integrals integrals = integrate(part, mortar, distance, rows, own, axisymmetric);
+  Integrals integrals = integrate(refinement, distance, rows, own, axisymmetric);
+  std::vector<PointRow> atCorners = pointRows(refinement, rows);
+  for (auto& [corner, row] : atCorners) {
+    // Where the node itself faces nothing it has no value, where nothing else does it has no mean.
+    const bool hasValue = kind != CouplingKind::interpolation || refinement.faces(corner.vertex);
+    if (!hasValue || !(integrals.lengths[row] > 0)) corner.weight = 1;
+    if (integrals.lengths[row] > 0) continue;
+    const int e = corner.nonmortar;
+    const double half = (part.s[e + 1] - part.s[e]) / 2;
+    integrals.lengths[row] = half;
+    integrals.mass.emplace_back(row, row, half * (axisymmetric ? circumference(part.at(e, 0.5)) : 1));
+  }
 
   Coupling result;
   result.nodes = rows.nodes();
@@ -238,7 +295,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     result.C2 = project(matrix(mortar, integrals.M));
     // Pressure bends straight lines: their distance is not convex, and lifted it would not follow C u.
     result.distance = mass.solve(integrals.distance);
-    if (!drawnStraight(part, mortar)) result.distance = lifted(result.distance, distances, integrals.least);
+    if (!drawnStraight(refinement)) result.distance = lifted(result.distance, distances, integrals.least);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const Vector inverse = w.cwiseInverse();  // products copy an expression for each column
@@ -248,6 +305,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     result.N = inverse.asDiagonal() * result.N;
     result.mass = Sparse(w.asDiagonal());
   }
+  for (const auto& [corner, row] : atCorners) putPointRow(refinement, corner, row, distance, result);
   return result;
 }
 

@@ -1,7 +1,7 @@
 // The coupling of a part of the nonmortar line with the mortar line: one row of C per trace node that has a
 // condition.
 //
-// x1(s) faces the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump
+// x1(s) faces the mortar point x2(s) along the direction n(s) (common_refinement.h). With the jump
 // j(s) = n . (u1(x1) - u2(x2)), traces sum phi_k u1_k and sum psi_l u2_l of the elements,
 // and row functions chi_i,
 //
@@ -25,6 +25,9 @@
 //
 // The distance g0 is taken by the same rows. With mortar it is moved up where the projection of a convex
 // distance would be below the least one where a row function is not 0 (coupling.cpp).
+//
+// A corner or an end of a line that touches the other one (CornerContact) is one point: the row of its vertex
+// becomes, in the part of its weight, the jump at that point.
 //
 // Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
 // elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
@@ -53,7 +56,7 @@
 
 #include "base/sparse.h"
 #include "base/types.h"
-#include "contact/facing_line.h"
+#include "contact/common_refinement.h"
 
 namespace mortier {
 
@@ -69,7 +72,7 @@ struct Coupling {
   std::vector<int> nodes;            ///< trace nodes of the part with a row, along the line (ElementLine)
   Eigen::SparseMatrix<double> mass;  ///< Phi, or w as a diagonal, rows x rows [m]
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
-  Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
+  Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the mortar line)
   Vector distance;                   ///< g0, by rows [m]
   Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
   Vector lengths;                    ///< int chi ds, by rows [m]
@@ -88,13 +91,13 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 
 /// \param distance  of the bodies, where x1(s) faces
 /// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies
-/// within the overlap.
+/// where the part faces the mortar line.
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
 /// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
 /// \param stiffness  of the nonmortar over that of the mortar body, for `coarsened`
 /// \param only  the vertices that may have a row, whether or not they face the mortar line themselves; empty:
 /// those that do (with `coarsened` some of them)
-Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+Coupling couple(CouplingKind kind, const CommonRefinement& refinement,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
                 bool axisymmetric = false, double stiffness = 1, const std::vector<char>& only = {});
 

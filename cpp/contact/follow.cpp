@@ -1,6 +1,7 @@
 // Rows that follow the bodies: the lines as drawn, moved, and coupled anew.
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "contact/element_tree.h"
 #include "contact/interface_entries.h"
@@ -16,16 +17,6 @@ struct ContactInterface::Lines {
   double stiffness = 1;
   double shorter = 0;  ///< of the two lines [m]
   double apart = 0;    ///< distance of a node that faces nothing: the length of its line [m]
-
-  /// A closed line that faces an open one begins where it is farthest off now.
-  [[nodiscard]] std::shared_ptr<const SmoothPart> begun(const Vector& u1, const Vector& u2) const {
-    std::vector<Point> one = nonmortar.points;
-    std::vector<Point> two = mortar.points;
-    for (size_t i = 0; i < one.size(); ++i) one[i] += u1.segment<2>(2 * nonmortar.nodes[i]);
-    for (size_t i = 0; i < two.size(); ++i) two[i] += u2.segment<2>(2 * mortar.nodes[i]);
-    return std::make_shared<const SmoothPart>(
-        smoothParts(begunAt(nonmortar, farthestNode(one, two))).front());
-  }
 };
 
 namespace {
@@ -68,8 +59,9 @@ void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLi
   for (const auto& drawn : lines->nonmortarParts) {
     const SmoothPart& part = *drawn;
     const bool merges = pair_.coupling != CouplingKind::interpolation;
-    const std::vector<char>& merged = lines->merged.emplace_back(
-        merges ? mergedNodes(part, {}, pair_.coupling, options) : std::vector<char>(part.nodes.size(), 0));
+    const std::vector<char>& merged =
+        lines->merged.emplace_back(merges ? mergedNodes(CommonRefinement(part), pair_.coupling, options)
+                                          : std::vector<char>(part.nodes.size(), 0));
     heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
     std::map<int, int>& rowOf = lines->rowOf.emplace_back();
     const auto add = [&](int node) {
@@ -92,18 +84,15 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
   const Lines& lines = *lines_;
   const Vector& moved2 = motion != nullptr ? motion->moved : u2;
   // Contact acts along the normal of the stiffer body, which hardly bends.
-  const double weight = lines.stiffness < 1 ? 1 : 0;
+  const double mortarShare = lines.stiffness < 1 ? 1 : 0;
   std::vector<SmoothPart> across;
-  for (const auto& part : lines.mortarParts) {
-    across.push_back(movedTo(part, moved2, axisymmetric_));
-    across.back().curvatures.assign(part->points.size(), 1 - weight);
-  }
+  for (const auto& part : lines.mortarParts) across.push_back(movedTo(part, moved2, axisymmetric_));
   const MortarLine mortar(across, lines.mortar.closed);
-  const bool turns = lines.nonmortarParts.front()->closed && !lines.mortar.closed;
 
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
   Entries entries;
   const std::vector<char> facedBefore = std::move(faces_);
+  const std::vector<ContactDirections> directionsBefore = std::exchange(directions_, {});
   faces_.assign(n, 0);
   normals_.resize(n);
   between_.clear();
@@ -111,25 +100,28 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
   lengths_ = Vector::Zero(n);
   distanceHere_ = Vector::Constant(n, lines.apart);
   overlap_ = 0;
+  std::vector<int> corners;
   for (size_t k = 0; k < lines.nonmortarParts.size(); ++k) {
     const std::map<int, int>& rowOf = lines.rowOf[k];
-    SmoothPart part = movedTo(turns ? lines.begun(u1, moved2) : lines.nonmortarParts[k], u1, axisymmetric_);
-    part.curvatures.assign(part.points.size(), weight);  // directionOf() takes it from these
-    const FacingLine facing = facingLine(part, mortar);
+    const SmoothPart part = movedTo(lines.nonmortarParts[k], u1, axisymmetric_);
+    const CommonRefinement facing(part, mortar, mortarShare, keepRows ? &directionsBefore[k] : nullptr);
+    directions_.push_back(facing.directions());
     for (int node = 0; node < part.traceNodes(); ++node)
       if (const auto row = rowOf.find(part.number(node)); row != rowOf.end())
-        normals_[row->second] = directionAt(part, facing, node);
+        normals_[row->second] = facing.directionAt(node);
     if (facing.empty()) continue;
+    std::vector<char> merged = lines.merged[k];
+    mergeCorners(facing, corners, merged);
     std::vector<char> only;
     for (size_t i = 0; i < part.nodes.size() && keepRows; ++i) {
       const auto row = rowOf.find(part.nodes[i]);
       only.push_back(row != rowOf.end() && facedBefore[row->second] != 0 ? 1 : 0);
     }
-    const Coupling coupling = couple(pair_.coupling, part, facing, distanceOfCurves, lines.merged[k],
-                                     axisymmetric_, lines.stiffness, only);
+    const Coupling coupling =
+        couple(pair_.coupling, facing, distanceOfCurves, merged, axisymmetric_, lines.stiffness, only);
     std::vector<int> rows;
     for (const int node : coupling.nodes) rows.push_back(rowOf.at(part.number(node)));
-    entries.add(coupling, part, facing, rows);
+    entries.add(coupling, facing, rows);
     for (size_t i = 0; i < rows.size(); ++i) {
       faces_[rows[i]] = 1;
       distanceHere_[rows[i]] = coupling.distance[static_cast<Eigen::Index>(i)];
@@ -137,8 +129,8 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
     }
     for (const auto& [node, ends] : coupling.between)
       between_.push_back({part.number(node), {rows[ends[0]], rows[ends[1]]}});
-    overlap_ += std::max(0.0, overlapOf(part.s, facing.s).length()) / lines.shorter;
-    penetration_.add(part, facing, distanceOfCurves, axisymmetric_);
+    overlap_ += facing.length() / lines.shorter;
+    penetration_.add(facing, distanceOfCurves, axisymmetric_);
   }
   for (int row = 0; row < n; ++row)  // no force has a pressure there
     if (faces_[row] == 0) entries.mass.emplace_back(row, row, 1);

@@ -46,50 +46,6 @@ double angleBetween(const std::vector<SmoothPart>& parts, const BoundaryLine& mo
   return widest * 180 / M_PI;
 }
 
-}  // namespace
-
-std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar) {
-  std::vector<SmoothPart> parts = smoothParts(line);
-  if (!parts.front().closed || mortar.closed) return parts;
-  return smoothParts(begunAt(line, farthestNode(line.points, mortar.points)));
-}
-
-std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
-                              const InterfaceOptions& options) {
-  std::vector<char> merged(part.nodes.size(), 0);
-  if (!options.nonmortarHeld || part.closed || rowDegree(kind, part.degree()) < part.degree()) return merged;
-  const auto direction = [&](size_t i) { return directionAt(part, mortar, static_cast<int>(i)); };
-  const auto held = [&](size_t i) { return options.nonmortarHeld(part.nodes[i], direction(i)); };
-  const auto facingHeld = [&](double s, const Point& normal) {
-    const auto above = std::lower_bound(mortar.s.begin(), mortar.s.end(), s);
-    const auto j = std::min<size_t>(above - mortar.s.begin(), mortar.s.size() - 1);
-    const bool onNode = mortar.s[j] == s || j == 0;
-    return options.mortarHeld && options.mortarHeld(mortar.nodes[j], normal) &&
-           (onNode || options.mortarHeld(mortar.nodes[j - 1], normal));
-  };
-  const size_t last = part.nodes.size() - 1;
-  for (const auto& [end, neighbour] : {std::pair<size_t, size_t>{0, 1}, {last, last - 1}})
-    if (held(end) && !held(neighbour))
-      merged[end] = kind != CouplingKind::interpolation || facingHeld(part.s[end], direction(end)) ? 1 : 0;
-  return merged;
-}
-
-double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
-  double largest = 0;
-  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
-    const auto consider = [&](const Arc& arc, const Point& a, const Point& b) {
-      if (!arc.known) largest = std::max(largest, sagitta((b - a).norm(), arc.curvature));
-    };
-    const int i = segment.nonmortar;
-    const int j = segment.mortar;
-    if (!part.bent(i)) consider(part.arcs[i], part.points[i], part.points[i + 1]);
-    if (!mortar.bent(j)) consider(mortar.geometry[j].arc, mortar.points[j], mortar.points[j + 1]);
-  }
-  return largest;
-}
-
-namespace {
-
 /// Columns 2 node + component of a line to dofs of its mesh.
 void scatter(const Eigen::SparseMatrix<double>& values, const ElementLine& line,
              const std::vector<int>& rowOf, Triplets& entries) {
@@ -137,28 +93,32 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 
 ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh,
                                    const ContactMesh& mortarMesh, const InterfaceOptions& options)
-    : pair_(pair), friction_(options.friction), axisymmetric_(options.axisymmetric) {
+    : pair_(pair),
+      friction_(options.friction),
+      distanceIsGiven_(static_cast<bool>(options.gap)),
+      axisymmetric_(options.axisymmetric) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
   const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
-  std::vector<FacingLine> facing;
+  std::vector<CommonRefinement> facing;
   facing.reserve(parts.size());
   const MortarLine across(mortar);
-  for (const SmoothPart& part : parts) facing.push_back(facingLine(part, across));
+  for (const SmoothPart& part : parts) facing.emplace_back(part, across);
   if (options.follows) {
     C1_.resize(0, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
     C2_.resize(0, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()));
     drawLines(nonmortar, mortar, options);
     follow(Vector::Zero(C1_.cols()), Vector::Zero(C2_.cols()));
-  } else if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
+  } else if (std::all_of(facing.begin(), facing.end(),
+                         [](const CommonRefinement& each) { return each.empty(); })) {
     if (const double angle = angleBetween(parts, mortar); angle < 120)
       throw InputError(names + " do not face each other: their outward normals make an angle of " +
                        digits(angle, 6) + " degrees, expected 180, or 120 at least");
   } else {
-    assemble(parts, facing, nonmortarMesh, mortarMesh, options);
+    assemble(facing, nonmortarMesh, mortarMesh, options);
   }
   if (rows() == 0) refuseWithoutRows(names);
   if (!follows()) overlap_ /= shorter;
@@ -183,17 +143,18 @@ void ContactInterface::settleDistance(InitialGap initial, double shorter, const 
   requireAllowed(*least, *most, initial, shorter, names);
 }
 
-void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
-                                const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
-                                const InterfaceOptions& options) {
+void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, const ContactMesh& nonmortarMesh,
+                                const ContactMesh& mortarMesh, const InterfaceOptions& options) {
   Entries entries;
   std::vector<double> distances;
   std::vector<double> lengths;
-  for (size_t k = 0; k < parts.size(); ++k) {
-    if (facing[k].empty()) continue;
-    const SmoothPart& part = parts[k];
-    const std::vector<char> merged = mergedNodes(part, facing[k], pair_.coupling, options);
+  std::vector<int> corners;
+  for (const CommonRefinement& refinement : facing) {
+    if (refinement.empty()) continue;
+    const SmoothPart& part = refinement.part();
+    std::vector<char> merged = mergedNodes(refinement, pair_.coupling, options);
     heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
+    mergeCorners(refinement, corners, merged);
     const DistanceAt distance = [&](int element, double s, const FacingPair& pair) {
       if (!options.gap)
         return options.initial == InitialGap::close ? 0.0 : distanceOfCurves(element, s, pair);
@@ -204,7 +165,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
       return gap;
     };
     Coupling coupling =
-        couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_, options.stiffness);
+        couple(pair_.coupling, refinement, distance, merged, axisymmetric_, options.stiffness);
     if (options.gap && !hasMeans(pair_.coupling))  // what is given holds at the nodes
       for (size_t i = 0; i < coupling.nodes.size(); ++i)
         coupling.distance[static_cast<Eigen::Index>(i)] =
@@ -212,18 +173,18 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
     std::vector<int> rowOf(coupling.nodes.size());
     std::iota(rowOf.begin(), rowOf.end(), firstRow);
-    entries.add(coupling, part, facing[k], rowOf);
+    entries.add(coupling, refinement, rowOf);
     for (const int node : coupling.nodes) {
       nonmortarNodes_.push_back(part.number(node));
-      normals_.push_back(directionAt(part, facing[k], node));
+      normals_.push_back(refinement.directionAt(node));
     }
     for (const auto& [node, rows] : coupling.between)
       between_.push_back({part.number(node), {firstRow + rows[0], firstRow + rows[1]}});
-    overlap_ += std::max(0.0, overlapOf(part.s, facing[k].s).length());
+    overlap_ += refinement.length();
     distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
     if (!options.gap && options.initial != InitialGap::close)
-      sagitta_ = std::max(sagitta_, unknownSagitta(part, facing[k]));
-    penetration_.add(part, facing[k], distance, axisymmetric_);
+      sagitta_ = std::max(sagitta_, unknownSagitta(refinement));
+    penetration_.add(refinement, distance, axisymmetric_);
     lengths.insert(lengths.end(), coupling.lengths.begin(), coupling.lengths.end());
     if (!options.gapInTime) continue;
     forEachEntry(coupling.N, [&](int row, int node, double value) {
@@ -247,10 +208,10 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   N_ = assembled(n, nonmortarMesh.nodes.count(), entries.given);
 }
 
-void ContactInterface::Entries::add(const Coupling& coupling, const SmoothPart& part,
-                                    const FacingLine& facing, const std::vector<int>& rowOf) {
-  scatter(coupling.C1, part, rowOf, nonmortar);
-  scatter(coupling.C2, facing, rowOf, mortar);
+void ContactInterface::Entries::add(const Coupling& coupling, const CommonRefinement& refinement,
+                                    const std::vector<int>& rowOf) {
+  scatter(coupling.C1, refinement.part(), rowOf, nonmortar);
+  scatter(coupling.C2, refinement.mortar(), rowOf, mortar);
   forEachEntry(coupling.mass, [&](int row, int column, double value) {
     mass.emplace_back(rowOf[row], rowOf[column], value);
   });

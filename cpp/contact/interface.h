@@ -4,9 +4,9 @@
 //   C u = C1 u1 + C2 u2,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
 // One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent
-// part at a corner), along the direction of contact there: coupling.h, facing_line.h. g0 is the distance
-// along it of the curves that the two lines stand for (arcs.h), of the lines as meshed where these are not
-// known. The solver has the two sparse matrices and g0, nothing of geometry.
+// part at a corner), along the direction of contact there: coupling.h, common_refinement.h. g0 is the
+// distance along it of the curves that the two lines stand for (arcs.h), of the lines as meshed where these
+// are not known. The solver has the two sparse matrices and g0, nothing of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
 // no row of its own: its row function goes to the neighbour, so that Dirichlet conditions may reach to the
@@ -129,8 +129,9 @@ class ContactInterface {
   [[nodiscard]] bool follows() const { return lines_ != nullptr; }
   /// Makes the rows those of the bodies moved by u_k, and g0 such that C u - g0 is the gap linearised there:
   ///   g = C (u - u_k) - d(u_k).
-  /// \param keepRows  only nodes that have a row now have one: at the ends of lines, and with `coarsened`,
-  /// the set of rows is a discontinuous function of the displacements
+  /// \param keepRows  only nodes that have a row now have one, and corners of lines keep their weights: at
+  /// the ends of lines, and with `coarsened`, the set of rows is a discontinuous function of the
+  /// displacements
   void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false,
               const MortarMotion* mortar = nullptr);
   /// d(u_k), the distance of the bodies where rows have followed them; by rows [m]
@@ -160,7 +161,9 @@ class ContactInterface {
   [[nodiscard]] bool distanceMoves() const { return static_cast<bool>(gapInTime_); }
   /// g0 at a time [m].
   [[nodiscard]] Vector distance(double t) const;
-  /// The distance that is given in place of that as meshed, as it was written; empty where none is.
+  /// Whether a distance is given in place of that as meshed.
+  [[nodiscard]] bool distanceIsGiven() const { return distanceIsGiven_; }
+  /// That distance as it was written; empty where none is.
   [[nodiscard]] const Datum& given() const { return given_; }
   void setGiven(Datum distance) { given_ = std::move(distance); }
   [[nodiscard]] const Friction& friction() const { return friction_; }
@@ -245,14 +248,14 @@ class ContactInterface {
   struct Entries;
   void drawLines(const BoundaryLine& nonmortar, const BoundaryLine& mortar, const InterfaceOptions& options);
   void setRows(const Entries& entries);
-  void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
-                const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
-                const InterfaceOptions& options);
+  void assemble(const std::vector<CommonRefinement>& facing, const ContactMesh& nonmortarMesh,
+                const ContactMesh& mortarMesh, const InterfaceOptions& options);
 
   int dimension_ = 2;
   std::shared_ptr<const Lines> lines_;  ///< of an interface that follows
   Vector distanceHere_;
   std::vector<char> faces_;
+  std::vector<ContactDirections> directions_;  ///< by nonmortar parts, where it follows
   std::vector<int> nonmortarLine_;
   ContactPair pair_;
   std::vector<int> nonmortarNodes_;
@@ -267,6 +270,7 @@ class ContactInterface {
   ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
+  bool distanceIsGiven_ = false;
   Datum given_;
   SpaceDatum gapInTime_;
   std::vector<std::pair<int, SpacePoint>> gapNodes_;  ///< where it is given, with their places

@@ -16,8 +16,7 @@ struct ContactInterface::Entries {
   Triplets given;  ///< of N
 
   /// \param rowOf  by rows of the coupling
-  void add(const Coupling& coupling, const SmoothPart& part, const FacingLine& facing,
-           const std::vector<int>& rowOf);
+  void add(const Coupling& coupling, const CommonRefinement& refinement, const std::vector<int>& rowOf);
 };
 
 /// Both sides in a message, `a.mesh label 1 "bottom" and b.mesh label 3 "top"`.
@@ -34,10 +33,15 @@ std::string sidesText(const ContactPair& pair, const Mesh& nonmortar, const Mesh
 std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar);
 
 /// The ends of the nonmortar line that are merged into their neighbours, as flags by the nodes of the part.
-std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
+std::vector<char> mergedNodes(const CommonRefinement& refinement, CouplingKind kind,
                               const InterfaceOptions& options);
 
+/// Where two parts meet at a corner that faces a point of the other line (CornerContact) one of them has the
+/// row there: merges the vertices of a part that another one has, and adds the others.
+/// \param corners  node numbers of the corners that have their row
+void mergeCorners(const CommonRefinement& refinement, std::vector<int>& corners, std::vector<char>& merged);
+
 /// The largest sagitta of the elements that face each other and whose curve is not known [m].
-double unknownSagitta(const SmoothPart& part, const FacingLine& mortar);
+double unknownSagitta(const CommonRefinement& refinement);
 
 }  // namespace mortier

@@ -69,14 +69,16 @@ EdgeNodes numbers(const ElementLine& line, int element) {
 
 }  // namespace
 
-void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
+void PenetrationIntegral::add(const CommonRefinement& refinement, const DistanceAt& distance,
                               bool axisymmetric) {
+  const SmoothPart& part = refinement.part();
+  const MortarLine& mortar = refinement.mortar();
   const bool quadratic = part.degree() > 1 || mortar.degree() > 1;
-  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
+  for (const Segment& segment : refinement.segments()) {
     const EdgeNodes nonmortarNodes = numbers(part, segment.nonmortar);
     const EdgeNodes mortarNodes = numbers(mortar, segment.mortar);
     const auto place = [&](double s) {
-      const FacingPair facing = facingPair(part, mortar, segment, s);
+      const FacingPair facing = refinement.pairAt(segment, s);
       return Place{nonmortarNodes, mortarNodes,   facing.phi,
                    facing.psi,     facing.normal, distance(segment.nonmortar, s, facing)};
     };

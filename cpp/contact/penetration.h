@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "contact/facing_line.h"
+#include "contact/common_refinement.h"
 
 namespace mortier {
 
@@ -32,8 +32,7 @@ struct RefinedPiece {
 class PenetrationIntegral {
  public:
   /// Adds a part of the nonmortar line with what it faces, which may turn about the axis x = 0.
-  void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
-           bool axisymmetric = false);
+  void add(const CommonRefinement& refinement, const DistanceAt& distance, bool axisymmetric = false);
   /// Gives the nodes of both meshes other numbers.
   void renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar);
   /// Takes the distances that were added for those between bodies that these displacements have moved.

@@ -5,24 +5,14 @@
 namespace mortier {
 namespace {
 
-/// Abscissae of the nodes of a trace.
-Trace nodesAlong(const ElementLine& line) {
-  Trace nodes;
-  for (size_t i = 0; i < line.s.size(); ++i) {
-    if (i > 0 && line.degree() == 2) nodes.push_back((line.s[i - 1] + line.s[i]) / 2);
-    nodes.push_back(line.s[i]);
-  }
-  return nodes;
-}
-
 /// Takes from the vertices `first` to `last` of a part those that are one to the mortar trace.
 /// \param stiffness  of the nonmortar over that of the mortar body
-std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size_t first, size_t last,
-                          double stiffness) {
+std::vector<char> dropped(const CommonRefinement& refinement, size_t first, size_t last, double stiffness) {
   constexpr double alike = 1e-9;  // distances that differ by rounding
+  const SmoothPart& part = refinement.part();
   std::vector<char> drop(part.s.size(), 0);
-  if (last < first + 2) return drop;
-  const Trace nodes = nodesAlong(mortar);
+  const Trace nodes = refinement.mortarNodes();
+  if (last < first + 2 || nodes.size() < 2) return drop;
   const auto spacing = [&](double s) {
     const auto k = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s);
     return *k - *(k - 1);
@@ -43,19 +33,35 @@ std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size
 
 }  // namespace
 
-RowFunctions::RowFunctions(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+RowFunctions::RowFunctions(CouplingKind kind, const CommonRefinement& refinement,
                            const std::vector<char>& merged, double stiffness, const std::vector<char>& only)
-    : part_(part), degree_(rowDegree(kind, part.degree())), ofNode_(part.traceNodes(), -1) {
-  const Overlap overlap = overlapOf(part.s, mortar.s);
-  if (!(overlap.length() > 0)) return;
+    : part_(refinement.part()), degree_(rowDegree(kind, part_.degree())), ofNode_(part_.traceNodes(), -1) {
+  if (refinement.empty()) return;
+  const SmoothPart& part = part_;
   const auto last = static_cast<size_t>(part.elements());
+  const auto facesBeside = [&](size_t i) {
+    const auto faces = [&](size_t element) {
+      const auto [from, to] = refinement.piecesOf(static_cast<int>(element));
+      return from < to;
+    };
+    return (i > 0 ? faces(i - 1) : part.closed && faces(last - 1)) || (i < last && faces(i));
+  };
+  std::vector<char> faced(last + 1, 0);
+  for (size_t i = 0; i <= last; ++i)
+    // What the function of a row reaches to must face something.
+    faced[i] = only.empty() ? refinement.faces(static_cast<int>(i)) : only[i] != 0 && facesBeside(i);
+  // A mortar line between two vertices is the nearer one's.
+  for (const Segment& piece : refinement.segments()) {
+    const int e = piece.nonmortar;
+    if (!only.empty() || !hasMeans(kind) || faced[e] != 0 || faced[e + 1] != 0) continue;
+    const bool first = piece.begin + piece.end <= part.s[e] + part.s[e + 1];
+    faced[first ? e : e + 1] = 1;
+  }
+  for (const CornerContact& corner : refinement.corners())
+    if (corner.weight > atCorner && (only.empty() || only[corner.vertex] != 0)) faced[corner.vertex] = 1;
   const auto has = [&](size_t i) {
     const size_t own = part.closed && i == last ? 0 : i;
-    if (!merged.empty() && merged[own] != 0) return false;
-    if (only.empty()) return part.s[own] >= overlap.begin && part.s[own] <= overlap.end;
-    // What its function reaches to must face something.
-    return only[own] != 0 && part.s[std::min(own + 1, last)] > overlap.begin &&
-           part.s[std::max<size_t>(own, 1) - 1] < overlap.end;
+    return (merged.empty() || merged[own] == 0) && faced[own] != 0;
   };
   const auto add = [&](size_t node) {
     ofNode_[node] = count();
@@ -67,8 +73,9 @@ RowFunctions::RowFunctions(CouplingKind kind, const SmoothPart& part, const Faci
     while (first < end && !has(first)) ++first;
     while (end > first && !has(end - 1)) --end;
     if (first == end) return;
-    const std::vector<char> drop =
-        only.empty() ? dropped(part, mortar, first, end - 1, stiffness) : std::vector<char>(part.s.size(), 0);
+    std::vector<char> drop =
+        only.empty() ? dropped(refinement, first, end - 1, stiffness) : std::vector<char>(part.s.size(), 0);
+    for (const CornerContact& corner : refinement.corners()) drop[corner.vertex] = 0;
     for (size_t i = first; i < end; ++i)
       if (part.closed && i == last)
         ofNode_[i] = ofNode_[0];

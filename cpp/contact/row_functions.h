@@ -8,12 +8,15 @@
 
 namespace mortier {
 
+/// A vertex at which a corner contact has more than this weight has a row, whatever else it faces.
+constexpr double atCorner = 0.5;
+
 /// Rows and row functions of a part. The last vertex of a closed part has the row of the first.
 class RowFunctions {
  public:
-  /// Arguments as in couple(); the part must outlive it.
-  RowFunctions(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-               const std::vector<char>& merged, double stiffness, const std::vector<char>& only = {});
+  /// Arguments as in couple(); the refinement must outlive it.
+  RowFunctions(CouplingKind kind, const CommonRefinement& refinement, const std::vector<char>& merged,
+               double stiffness, const std::vector<char>& only = {});
 
   /// Trace nodes with a row, along the line.
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }

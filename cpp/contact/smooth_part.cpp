@@ -103,11 +103,11 @@ void setArcLengths(SmoothPart& part) {
     part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
 }
 
-SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
+SmoothPart partOf(const BoundaryLine& line, int begin, int end, bool closed) {
   SmoothPart part;
   part.nodes.assign(line.nodes.begin() + begin, line.nodes.begin() + end + 1);
   part.points.assign(line.points.begin() + begin, line.points.begin() + end + 1);
-  part.closed = part.nodes.front() == part.nodes.back();
+  part.closed = closed;
   if (!line.middleNodes.empty()) {
     part.middles.assign(line.middleNodes.begin() + begin, line.middleNodes.begin() + end);
     part.middlePoints.assign(line.middlePoints.begin() + begin, line.middlePoints.begin() + end);
@@ -135,17 +135,6 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
 }
 
 }  // namespace
-
-Point SmoothPart::normalAt(int element, double abscissa) const {
-  if (straight) return normals.front();
-  const Eigen::Vector2d phi = hats(s, element, abscissa);
-  return (phi[0] * normals[element] + phi[1] * normals[element + 1]).normalized();
-}
-
-double SmoothPart::curvatureAt(int element, double abscissa) const {
-  const Eigen::Vector2d phi = hats(s, element, abscissa).cwiseMax(0);
-  return phi[0] * curvatures[element] + phi[1] * curvatures[element + 1];
-}
 
 Point SmoothPart::direction(int element) const {
   return (points[element + 1] - points[element]).normalized();
@@ -185,54 +174,16 @@ std::vector<SmoothPart> smoothParts(const BoundaryLine& line) {
   std::vector<int> corners = cornersOf(line);
   if (line.closed && !corners.empty() && corners.front() != 0)
     return smoothParts(begunAt(line, corners.front()));
+  const bool closed = line.closed && corners.empty();
   if (corners.empty() || corners.front() != 0) corners.insert(corners.begin(), 0);
   corners.push_back(static_cast<int>(line.points.size()) - 1);
   std::vector<SmoothPart> parts;
-  for (size_t i = 1; i < corners.size(); ++i) parts.push_back(partOf(line, corners[i - 1], corners[i]));
-  return parts;
-}
-
-namespace {
-
-/// Two ends closer than this part of the elements there are one point of Gamma_C.
-constexpr double sameEnd = 1e-9;
-
-}  // namespace
-
-Overlap overlapOf(const Trace& nonmortar, const Trace& mortar) {
-  const auto same = [](double a, double b, double elementA, double elementB) {
-    return std::abs(a - b) <= sameEnd * std::min(elementA, elementB);
-  };
-  const size_t n = nonmortar.size();
-  const size_t m = mortar.size();
-  Overlap overlap{std::max(nonmortar[0], mortar[0]), std::min(nonmortar[n - 1], mortar[m - 1])};
-  // The merged end is the nonmortar one: its node must not be lost by rounding.
-  if (same(nonmortar[0], mortar[0], nonmortar[1] - nonmortar[0], mortar[1] - mortar[0]))
-    overlap.begin = nonmortar[0];
-  if (same(nonmortar[n - 1], mortar[m - 1], nonmortar[n - 1] - nonmortar[n - 2],
-           mortar[m - 1] - mortar[m - 2]))
-    overlap.end = nonmortar[n - 1];
-  return overlap;
-}
-
-std::vector<Segment> commonRefinement(const Trace& nonmortar, const Trace& mortar) {
-  std::vector<Segment> segments;
-  const Overlap overlap = overlapOf(nonmortar, mortar);
-  const auto elements = static_cast<int>(nonmortar.size()) - 1;
-  const auto mortarElements = static_cast<int>(mortar.size()) - 1;
-  int i = 0;
-  int j = 0;
-  double begin = overlap.begin;
-  while (begin < overlap.end) {
-    while (i + 1 < elements && nonmortar[i + 1] <= begin) ++i;
-    while (j + 1 < mortarElements && mortar[j + 1] <= begin) ++j;
-    double end = overlap.end;
-    if (i + 1 < elements) end = std::min(end, nonmortar[i + 1]);
-    if (j + 1 < mortarElements) end = std::min(end, mortar[j + 1]);
-    segments.push_back({i, j, begin, end});
-    begin = end;
+  const bool round = line.closed && !closed;
+  for (size_t i = 1; i < corners.size(); ++i) {
+    parts.push_back(partOf(line, corners[i - 1], corners[i], closed));
+    parts.back().corners = {i > 1 || round, i + 1 < corners.size() || round};
   }
-  return segments;
+  return parts;
 }
 
 }  // namespace mortier

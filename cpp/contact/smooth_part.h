@@ -16,6 +16,7 @@
 // condition from each, along the normal of each.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -78,37 +79,8 @@ inline double sagitta(double length, double curvature) {
 // element is straight, or bent through the place of that node (isoparametric), and its abscissa runs with the
 // parameter. Nodes are counted along the line, the vertices first, then the middles.
 
-// The common refinement of two traces on the line that they share: between its points both are linear.
-
 /// Abscissae along Gamma_C, strictly ascending [m].
 using Trace = std::vector<double>;
-
-/// A piece of Gamma_C on which both traces are linear.
-struct Segment {
-  int nonmortar = 0;  ///< element: between trace nodes `nonmortar` and `nonmortar + 1`
-  int mortar = 0;
-  double begin = 0;  ///< [m]
-  double end = 0;    ///< [m]
-};
-
-/// Ends of the part where both traces lie; begin >= end when they do not overlap.
-struct Overlap {
-  double begin = 0;
-  double end = 0;
-  [[nodiscard]] double length() const { return end - begin; }
-};
-
-/// Ends of the two traces that differ by rounding only count as one.
-Overlap overlapOf(const Trace& nonmortar, const Trace& mortar);
-
-/// The segments of the overlap, ascending; none where there is no overlap.
-std::vector<Segment> commonRefinement(const Trace& nonmortar, const Trace& mortar);
-
-/// Values at s of the two hat functions of an element: 1 - x and x.
-inline Eigen::Vector2d hats(const Trace& trace, int element, double s) {
-  const double x = (s - trace[element]) / (trace[element + 1] - trace[element]);
-  return {1 - x, x};
-}
 
 struct ElementLine {
   std::vector<int> nodes;     ///< vertex numbers along the line; first and last agree where it is closed
@@ -163,12 +135,10 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
   std::vector<Arc> arcs;           ///< what the elements stand for
   bool straight = false;
   bool closed = false;
+  std::array<bool, 2> corners{};                      ///< whether another part of the line begins at its ends
   std::shared_ptr<const SmoothPart> drawn = nullptr;  ///< where this one has moved: as it was meshed
 
   [[nodiscard]] double length() const { return s.back(); }
-  /// n(s) at an abscissa s [m] on an element, or beyond its ends.
-  [[nodiscard]] Point normalAt(int element, double abscissa) const;
-  [[nodiscard]] double curvatureAt(int element, double abscissa) const;
   /// Direction of an element, of length one.
   [[nodiscard]] Point direction(int element) const;
 };

@@ -2,7 +2,7 @@
 // their triangles.
 //
 // A nonmortar triangle faces the mortar surface along n ~ R1 n1 - R2 n2, n1, n2 the outward normals and R1,
-// R2 the radii of curvature of both surfaces, as in the plane (facing_line.h): a plane triangle along its
+// R2 the radii of curvature of both surfaces, as in the plane (directions.h): a plane triangle along its
 // own normal, a curved one that faces a plane along the normal of the plane, on which alone the distance
 // depends. Each point of a rule adds a pair of opposite forces along the line through x1 and x2: rows
 // balance in force and moment.
@@ -310,6 +310,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   for (int node = 0; node < nonmortarMesh.nodes.count(); ++node)
     if (result.N_.col(node).nonZeros() > 0 || result.points_.traces[0].col(node).nonZeros() > 0)
       result.gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
+  result.distanceIsGiven_ = static_cast<bool>(options.gap);
   result.gapInTime_ = options.gap;
   result.distance_ = result.distance(0);
   result.points_.distances = result.pointDistances(0);

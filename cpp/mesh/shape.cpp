@@ -126,7 +126,7 @@ Outline lineOutline(const Point& from, const Point& to) {
   constexpr double depth = 0.05;  // of its length: it is drawn so
   const Point along = to - from;
   const Point left = depth * Point(-along.y(), along.x());
-  return {{from, to, to + left, from + left}, {1, 2, 2, 2}};
+  return {{from, to, to + left, from + left}, {1, 2, 2, 2}, {}, {}, {{sideBehind, 2}}};
 }
 
 Outline splineOutline(const std::vector<Point>& points) {
@@ -181,6 +181,7 @@ Outline splineOutline(const std::vector<Point>& points) {
   outline.points.push_back(points.back());
   outline.labels.push_back(2);
   outline.curves.emplace_back();
+  outline.labelNames = {{sideBehind, 2}};
   return outline;
 }
 
@@ -191,6 +192,7 @@ TriangleMesh outlineMesh(const Outline& outline) {
   mesh.name = outline.name;
   mesh.vertices = outline.points;
   mesh.boundaryLabels = outline.labels;
+  mesh.labelNames = outline.labelNames;
   for (int k = 0; k < n; ++k) mesh.boundaryEdges.push_back({k, (k + 1) % n});
   if (!outline.curves.empty()) {
     mesh.edgeCurves = outline.curves;

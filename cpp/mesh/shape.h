@@ -18,7 +18,11 @@ struct Outline {
   std::vector<int> labels;             ///< by edges
   std::vector<EdgeCurve> curves = {};  ///< by edges; empty where none stands for a curve that is no circle
   std::string name = {};               ///< for messages
+  std::map<std::string, int> labelNames = {};
 };
+
+/// The name of the label of sides that close the outline of a line and are no part of the body.
+inline constexpr const char* sideBehind = "behind";
 
 /// A circle, label 1. Beside the axis of revolution, with its centre on it, the half at x >= 0 and the axis
 /// itself, label 2.

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h) and what a scene means; it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 15\n";
+constexpr std::string_view magic = "mortier checkpoint 16\n";
 
 uint64_t sumOf(std::string_view bytes) {
   Checksum sum;

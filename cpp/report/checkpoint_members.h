@@ -31,6 +31,7 @@ MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding, strain,
                 rotation)
+MORTIER_MEMBERS(BodyOverlap, area, depth, place, time, bodies, labels, explained, shallow, words)
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)
@@ -58,11 +59,11 @@ template <class Archive>
 void visitMembers(Archive& archive, RunReport& whole) {
   auto& [status, reason, shortfall, stuck, steps, iterations, maxIterationsInAStep, factorisations,
          pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities,
-         rungs, ambiguousSteps, several] = whole;
+         rungs, ambiguousSteps, several, overlap] = whole;
   static_cast<void>(stuck);
   archive(status, reason, shortfall, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations,
           rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs,
-          ambiguousSteps, several);
+          ambiguousSteps, several, overlap);
 }
 
 }  // namespace mortier

@@ -238,6 +238,16 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
   return text;
 }
 
+/// Contact that no row has found, and overlaps beside contact that never pressed.
+std::string logOverlap(const RunReport& report) {
+  const BodyOverlap& overlap = report.overlap;
+  if (overlap.shallow) return "warning    " + overlap.words + ": the meshes do not resolve it\n";
+  if (!(overlap.depth > 0) || !overlap.explained || report.peaks.contactForce.value > 0) return "";
+  return "warning    bodies " + overlap.bodies[0] + " and " + overlap.bodies[1] +
+         formatted(" overlap by %.3g at (%.5g, %.5g", overlap.depth, overlap.place.x(), overlap.place.y()) +
+         ") as drawn, or as a distance that is given or small sliding lets them\n";
+}
+
 /// What is known of the error of a quantity.
 std::string errorText(const RunFacts& facts, const Accuracy& accuracy, size_t i, double value) {
   const QuantityError error = errorOf(facts, accuracy, i);
@@ -319,7 +329,7 @@ std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solv
                    const std::string& place) {
   const RunReport& report = solved.report;
   return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
-         logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
+         logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) + logOverlap(report) +
          logPeaks(report.peaks, solved.last, facts.units, !model.interfaces.empty()) +
          logQuantities(facts, model, solved) + logRanges(facts, report.quantities);
 }

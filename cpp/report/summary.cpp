@@ -144,6 +144,16 @@ Json jsonOf(const Peaks& peaks) {
   return json;
 }
 
+Json jsonOf(const BodyOverlap& overlap, int dimension) {
+  Json json = {{"depth", overlap.depth}, {"area", overlap.area}, {"explained", overlap.explained}};
+  if (!(overlap.depth > 0)) return json;
+  json["at"] = jsonOf(overlap.place, dimension);
+  json["time"] = overlap.time;
+  for (const int k : {0, 1})
+    json["between"].push_back({{"body", overlap.bodies[k]}, {"label", overlap.labels[k]}});
+  return json;
+}
+
 Json jsonOf(const QuantityRange& range) {
   return {{"start", range.start},
           {"smallest", {{"value", range.smallest}, {"time", range.smallestTime}}},
@@ -253,6 +263,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     json["ambiguous_steps"] = report.ambiguousSteps;
     if (facts.solver.listSolutions) json["several_solutions"] = jsonOf(report.several);
   }
+  json["overlap"] = jsonOf(report.overlap, space ? 3 : 2);
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);
   for (size_t i = 0; i < values.size(); ++i) {

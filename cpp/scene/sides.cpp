@@ -212,11 +212,17 @@ double crossedPart(const TriangleMesh& mesh) {
 namespace {
 
 /// Why the volumetric strain of a body is to be averaged; empty where it need not be.
-std::string volumeNeed(const SceneDescription& scene, const BodyDescription& body, const TriangleMesh& mesh) {
+std::string volumeNeed(const SceneDescription& scene, const BodyDescription& body) {
+  // Where linear triangles with one diagonal begin to lock: Hertz's pressure is off by 0.7 % at 0.45 and by 6
+  // to 31 % at 0.49, by 0.3 % with the average. Crossed cells do not lock, and are better with it all the
+  // same.
+  constexpr double locks = 0.45;
+  const bool linear = scene.degree == 1 && scene.plane != Plane::stress;
   const auto needOf = [&](const MaterialDescription& material) -> std::string {
-    if (nearlyIncompressible(scene, material))
+    if (nearlyIncompressible(scene, material) || (linear && material.elasticity.poisson >= locks))
       return "poisson = " + shortest(material.elasticity.poisson) + " keeps the volume";
-    return flowLocks(scene, material, &mesh) ? "flow keeps the volume, on linear triangles" : "";
+    const bool flows = linear && material.flows() && material.as<OwnLaw>() == nullptr;
+    return flows ? "flow keeps the volume, on linear triangles" : "";
   };
   std::string need = needOf(body.material);
   for (const RegionDescription& region : body.regions)
@@ -244,7 +250,7 @@ void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh
     BodyDescription& body = scene.bodies[b];
     if (body.volume != Volume::automatic || meshes[b] == nullptr) continue;
     body.volume = Volume::pointwise;
-    body.volumeChoice = volumeNeed(scene, body, *meshes[b]);
+    body.volumeChoice = volumeNeed(scene, body);
     if (body.volumeChoice.empty()) continue;
     if (scene.accuracy.bound)
       body.volumeChoice = "accuracy.bound: bounds are of the strains of the displacements themselves";

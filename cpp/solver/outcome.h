@@ -23,6 +23,7 @@ enum class Reason {
   unconverged,  ///< not in the linear solves that are allowed, or not by this method
   singular,     ///< a tangent cannot be factorised
   contact,      ///< the contact problem of a linear solve was not solved
+  overlap,      ///< bodies overlap where no contact holds them apart
   unheld        ///< contact cannot balance the load
 };
 

@@ -9,9 +9,18 @@
 #include "base/worst.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "solver/uncarried_load.h"
 
 namespace mortier {
 namespace {
+
+/// A tool has no nonmortar side.
+bool mayExchangeSides(const Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const ContactInterface& each) {
+    return !model.bodies[each.pair().nonmortar.body].rigid() &&
+           !model.bodies[each.pair().mortar.body].rigid();
+  });
+}
 
 std::vector<int> numberRows(const Model& model) {
   std::vector<int> first{0};
@@ -235,20 +244,28 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
 
 bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iterate,
                                    StepOutcome& outcome) && {
+  const auto fallsBy = [&](const Vector& motion) {
+    return outcome.fail(Reason::unheld, (system_->hasFriction() ? "contact and its friction cannot hold "
+                                                                : "contact cannot hold ") +
+                                            system_->describeRigid(motion));
+  };
+  if (contact.outcome == ContactSolution::Outcome::unbalanced) return fallsBy(contact.rigid);
+  if (contact.outcome != ContactSolution::Outcome::solved)
+    if (const auto motion = uncarriedLoad(system_->contact_, balance + system_->contact_.G.transpose() * p0))
+      return fallsBy(*motion);
   if (contact.outcome == ContactSolution::Outcome::cycled)
     return outcome.fail(Reason::contact,
-                        "no solution of the contact problem of the linearised step was found; another side "
-                        "as nonmortar (swap) or other factors (solver.linear) may lead to one");
+                        "no solution of the contact problem of the linearised step was found; other factors "
+                        "(solver.linear)" +
+                            std::string(mayExchangeSides(system_->model_)
+                                            ? " or another side as nonmortar (swap) may lead to one"
+                                            : " may lead to one"));
   if (contact.outcome == ContactSolution::Outcome::dependent)
     return outcome.fail(Reason::contact, "with friction, contact conditions that depend on each other");
   if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
                                              counted(contact.pivots, "active set") + ", the work of " +
                                              counted(std::lround(contact.work), "dense factorisation"));
-  if (contact.outcome == ContactSolution::Outcome::unbalanced)
-    return outcome.fail(Reason::unheld, (system_->hasFriction() ? "contact and its friction cannot hold "
-                                                                : "contact cannot hold ") +
-                                            system_->describeRigid(contact.rigid));
   system_->expandBodies(contact, [&](int b, const Vector& d) {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();

@@ -280,7 +280,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       ++report.rejections;
       // The end of equilibrium is approached as closely as the tolerance asks.
       if (outcome.unheld() && k <= plan_.tolerance * (plan_.end - memory_.begin))
-        return giveUp(Status::unheld, t1, outcome.detail);
+        return giveUp(Status::unheld, t1, outcome.detail + taker.nearFacingLimit());
       if (stepsTooSmall(state.time, k))
         return giveUp(Status::failed, t1,
                       "at the pace of the steps that can be solved max_steps = " +

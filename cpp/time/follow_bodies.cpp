@@ -58,71 +58,145 @@ double roundingOfPlaces(const Model& model, const std::vector<Vector>& u) {
   return roundings * largest;
 }
 
-/// Of a body that contact alone holds, and that moves between two repetitions as a rigid one, that motion in
-/// words: its load has passed what the conditions of contact can carry. Empty where there is none.
-std::string whatTips(const Model& model, const std::vector<Vector>& from, const std::vector<Vector>& to) {
-  constexpr double strained = 0.1;  // the part of a change that is none of a rigid body
+std::vector<Vector> incrementsOf(const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (const auto& body : iterate.bodies) result.push_back(body.increment.value());
+  return result;
+}
+
+/// How far bodies move from where their rows are, repetition by repetition: towards a state, or away.
+class Repetitions {
+ public:
+  /// \param rows  increments of the bodies where the rows are [m]
+  explicit Repetitions(std::vector<Vector> rows) : rows_(std::move(rows)) {}
+
+  /// Takes the increments that were found with the rows.
+  void add(const std::vector<Vector>& found) {
+    double square = 0;
+    double along = 0;
+    std::vector<Vector> change;
+    for (size_t b = 0; b < found.size(); ++b) {
+      change.push_back(found[b] - rows_[b]);
+      square += change[b].squaredNorm();
+      if (!change_.empty()) along += change[b].dot(change_[b]);
+    }
+    approaches_ = square < square_;
+    grown_ = along > 0 && !approaches_ ? grown_ + 1 : 0;
+    const double turn = square + square_ - 2 * along;
+    part_ = change_.empty() || !(turn > 0) ? 1 : std::clamp(part_ * (square_ - along) / turn, least, 1.0);
+    square_ = square;
+    change_ = std::move(change);
+  }
+
+  /// Where the next rows are to be: where the bodies are, or where changes swing about a state, on the way
+  /// there (Aitken's relaxation).
+  const std::vector<Vector>& goOn(bool mayRelax) {
+    if (!mayRelax) part_ = 1;
+    for (size_t b = 0; b < rows_.size(); ++b) rows_[b] += part_ * change_[b];
+    return rows_;
+  }
+  [[nodiscard]] bool relaxes() const { return part_ < 1; }
+  [[nodiscard]] bool approaches() const { return approaches_; }  ///< the last change is less than that before
+  /// Of a body that contact alone holds, the rigid motion in words by which the last repetition moves it: it
+  /// finds no place where contact carries its load. A tool moves as a rigid body whatever the reason is, and
+  /// is named only where the last repetitions move it on and on. Empty where there is none.
+  [[nodiscard]] std::string whatFalls(const Model& model) const;
+
+ private:
+  static constexpr double least = 0.1;
+  std::vector<Vector> rows_;
+  std::vector<Vector> change_;
+  double square_ = infinity;
+  double part_ = 1;  ///< of the change by which rows go on
+  bool approaches_ = true;
+  int grown_ = 0;  ///< repetitions, the last of them
+};
+
+std::string Repetitions::whatFalls(const Model& model) const {
+  constexpr double strained = 0.3;  // part of a change that is none of the body as drawn, which has turned
+  constexpr int enough = 4;         // changes of a cycle go back before
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    if (body.rigid() && grown_ < enough) continue;
     const Matrix modes = rigidModes(body);
-    const Vector change = to[b] - from[b];
+    const Vector& change = change_[b];
     if (modes.cols() == 0 || change.isZero(0)) continue;
     const Vector motion = modes * modes.colPivHouseholderQr().solve(change);
     if ((change - motion).norm() <= strained * change.norm())
-      return "; contact does not hold body " + body.name() + " there: a repetition moves it by a " +
-             describeRigidMotion(body, motion);
+      return "body " + body.name() + ": " + describeRigidMotion(body, motion);
   }
   return {};
 }
 
 }  // namespace
 
-/// Rows at the end of the increments. \returns the gaps of the state by these rows
-std::vector<Vector> StepTaker::followTo(const Iterate& iterate, bool keepRows) {
-  follow(model_, displacements(state_, iterate), keepRows);
+/// Rows where increments bring the bodies. \returns the gaps of the state by these rows
+std::vector<Vector> StepTaker::followTo(const std::vector<Vector>& increments, bool keepRows) {
+  std::vector<Vector> u;
+  for (size_t b = 0; b < increments.size(); ++b) u.push_back(state_.bodies[b].displacement + increments[b]);
+  follow(model_, u, keepRows);
   system_.takeRows();
   std::vector<Vector> gap0 = state_.gap;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     if (!interface.follows()) continue;
     const auto& [nonmortar, mortar, coupling] = interface.pair();
-    gap0[k] = -interface.distanceHere() - interface.jump(iterate.bodies[nonmortar.body].increment.value(),
-                                                         iterate.bodies[mortar.body].increment.value());
+    gap0[k] = -interface.distanceHere() - interface.jump(increments[nonmortar.body], increments[mortar.body]);
   }
   return gap0;
 }
 
+std::vector<Vector> StepTaker::followTo(const Iterate& iterate) {
+  return followTo(incrementsOf(iterate), false);
+}
+
 StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Effort effort) {
-  constexpr int most = 40;
+  constexpr int usual = 40;
+  constexpr int most = 400;  // where each is nearer, as short of the load at which a body tips
   constexpr int freely = 8;  // a set of rows that still changes then is kept
   constexpr double settled = 1e-10;
   constexpr double balanced = 1e-9;  // it was on the rows before; the next repetition would be as much better
   StepOutcome total;
-  data.gap = followTo(iterate, false);
+  std::vector<Vector> found = incrementsOf(iterate);
+  Repetitions repetitions(found);
+  data.gap = followTo(found, false);
   double off = 0;
-  std::vector<Vector> before;
-  std::vector<Vector> now = displacements(state_, iterate);
-  for (int repetition = 1; repetition <= most; ++repetition) {
-    StepOutcome next = solveStep(system_, state_, data, iterate, effort);
+  bool searchedAgain = false;
+  int repetition = 1;
+  for (; repetition <= usual || (repetition <= most && repetitions.approaches()); ++repetition) {
+    StepOutcome here = solveStep(system_, state_, data, iterate, effort);
     const Vector compliance = system_.compliances();
-    total.follow(std::move(next));
-    if (!total.converged()) break;
-    data.gap = followTo(iterate, repetition >= freely);
-    before = std::exchange(now, displacements(state_, iterate));
-    off = misfit(model_, data.gap, iterate, compliance, roundingOfPlaces(model_, now));
-    if (!(off <= settled)) continue;
-    const Certificate here =
-        system_.certify(system_.step(state_, data), iterate, total.certificate.materialResidual);
-    if (!(here.forceBalance <= balanced)) continue;
-    total.certificate = worse(total.certificate, here);
-    return total;
+    total.follow(std::move(here));
+    if (!total.converged()) return total;
+    found = incrementsOf(iterate);
+    data.gap = followTo(found, repetition >= freely);
+    off = misfit(model_, data.gap, iterate, compliance,
+                 roundingOfPlaces(model_, displacements(state_, iterate)));
+    if (off <= settled) {
+      const Certificate moved =
+          system_.certify(system_.step(state_, data), iterate, total.certificate.materialResidual);
+      if (moved.forceBalance <= balanced) {
+        if (searchedAgain || !overlapOf(iterate, data.time).refused()) {
+          total.certificate = worse(total.certificate, moved);
+          return total;
+        }
+        searchedAgain = true;  // its rows may have been kept from before
+        data.gap = followTo(found, false);
+        continue;
+      }
+    }
+    repetitions.add(found);
+    const std::vector<Vector>& next = repetitions.goOn(repetition >= freely);
+    if (repetitions.relaxes()) data.gap = followTo(next, true);
   }
-  if (!total.converged()) return total;
-  total.fail(Reason::unconverged,
-             formatted("contact does not settle where the bodies are in %d repetitions: the last one is off "
-                       "by %g of the largest contact force",
-                       most, off) +
-                 (system_.contactHolds() ? whatTips(model_, before, now) : ""));
+  if (const std::string motion = system_.contactHolds() ? repetitions.whatFalls(model_) : ""; !motion.empty())
+    total.fail(Reason::unheld, "contact where the bodies are cannot hold " + motion);
+  else
+    total.fail(
+        Reason::unconverged,
+        formatted("contact does not settle where the bodies are in %d repetitions: the last one is off "
+                  "by %g of the largest contact force",
+                  repetition - 1, off));
   return total;
 }
 

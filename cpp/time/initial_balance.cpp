@@ -28,7 +28,8 @@ bool actsAtOnce(const Model& model, const State& state) {
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options) {
   const State before = state;
   MarchMemory memory;
-  const StepOutcome outcome = StepTaker(model, state, memory, Scheme::backwardEuler, options).jump();
+  const StepOutcome outcome =
+      StepTaker(model, state, memory, Scheme::backwardEuler, options, false, false).jump();
   if (outcome.unheld()) throw UnheldBodyError("at t = 0: " + outcome.detail);
   if (!outcome.converged())
     throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.detail);

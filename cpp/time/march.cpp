@@ -40,10 +40,12 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
       ++done;
       continue;
     }
-    // A body may be unheld where contact would be after too large a step only.
-    if ((outcome.unheld() && !taker.follows()) || parts == smallest) {
+    // A body may be unheld where contact would be after too large a step only. Shorter steps press less: they
+    // miss the contact that an overlap is without even more.
+    if ((outcome.unheld() && !taker.follows()) || outcome.reason == Reason::overlap || parts == smallest) {
       report.status = outcome.unheld() ? Status::unheld : Status::failed;
       report.reason = formatted("step %d at t = %g: ", report.step, time) + outcome.detail;
+      if (outcome.unheld()) report.reason += taker.nearFacingLimit();
       return;
     }
     parts *= 2;
@@ -150,7 +152,10 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
       report.reason = "step " + std::to_string(report.step) + ": " + error.what();
     }
     run.solveSeconds += secondsSince(begin);
-    if (report.status == Status::failed) run.stuck = taker.stuck();
+    if (report.status == Status::failed) {
+      run.stuck = taker.stuck();
+      if (taker.overlap().refused()) run.overlap = taker.overlap();
+    }
     if (run.stuck) report.reason += taker.stressAt(*run.stuck);
     add(report, run);
     run.special = taker.special();
@@ -279,7 +284,7 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
   std::optional<StepTaker> taker;
   const auto makeTaker = [&] {
     const auto begin = Clock::now();
-    taker.emplace(model, state, memory, plan.scheme, options, countsWork);
+    taker.emplace(model, state, memory, plan.scheme, options, countsWork, plan.overlapEnds);
     memory.run.solveSeconds += secondsSince(begin);
   };
   makeTaker();
@@ -297,6 +302,8 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
     go(model, state, memory, plan, *taker, controller, observer);
     const bool again = controlled && memory.run.status == Status::converged && controller.beginAgain(state);
     if (!again) {
+      if (memory.run.status == Status::converged)
+        if (!taker->overlap().explained) memory.run.overlap = taker->overlap();
       if (controlled && memory.run.status == Status::converged) memory.run.shortfall = controller.shortfall();
       if (atEnd && memory.run.status == Status::converged) atEnd(*taker);
       return memory.run;

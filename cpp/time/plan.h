@@ -22,6 +22,8 @@ struct TimePlan {
   std::vector<Quantity> quantities = {};  ///< that are evaluated at the end of every step
   /// By interfaces, whether a node may slide past the end of the line that it touches; others may.
   std::vector<bool> slidingAllowed = {};
+  /// Whether an overlap of bodies that nothing explains ends the run; else it is only reported.
+  bool overlapEnds = true;
   /// Whether steps are chosen by their error; otherwise they are equal.
   [[nodiscard]] bool controlled() const { return tolerance > 0; }
 };

@@ -1,6 +1,7 @@
 // What is reported of a whole run.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -61,6 +62,23 @@ struct SeveralSolutions {
   std::vector<ListedSolution> listed;  ///< the first one was taken
 };
 
+/// Where the boundaries of two bodies, as moved, cross each other (time/overlap_check.h).
+struct BodyOverlap {
+  double area = 0;                      ///< of the region; in space of the surface in the other body [m^2]
+  double depth = 0;                     ///< largest distance to the other boundary there [m]
+  SpacePoint place{0, 0, 0};            ///< of it [m]
+  double time = 0;                      ///< [s]
+  std::array<std::string, 2> bodies{};  ///< the one whose boundary is in the other first
+  std::array<int, 2> labels{};          ///< there; 0 where it has none
+  bool explained = true;
+  /// Not explained, but less than a quarter of an element, no deeper than meshes would leave it if a row
+  /// pressed there, or beside small sliding contact that presses: it does not end a step.
+  bool shallow = false;
+  std::string words;  ///< one line where it is not explained
+
+  [[nodiscard]] bool refused() const { return !explained && !shallow; }
+};
+
 struct RunReport {
   Status status = Status::converged;
   std::string reason;               ///< one line when the status is not converged
@@ -82,6 +100,7 @@ struct RunReport {
   std::map<std::string, int> rungs;       ///< how many steps took which (StepReport::rung)
   int ambiguousSteps = 0;                 ///< StepSolutions::ambiguous
   std::vector<SeveralSolutions> several;  ///< where they are looked for
+  BodyOverlap overlap;                    ///< the deepest of any step; of the step that failed by one
 };
 
 }  // namespace mortier

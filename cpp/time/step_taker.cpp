@@ -10,18 +10,20 @@
 #include "base/parallel.h"
 #include "material/stress.h"
 #include "solver/state.h"
+#include "time/facing_limit.h"
 #include "time/measure.h"
 
 namespace mortier {
 
 StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
-                     const SolverOptions& options, bool countsWork)
+                     const SolverOptions& options, bool countsWork, bool overlapEnds)
     : model_(model),
       state_(state),
       memory_(memory),
       scheme_(scheme),
       system_(model, options),
-      countsWork_(countsWork) {
+      countsWork_(countsWork),
+      overlapEnds_(overlapEnds) {
   if (memory.run.steps > 0) system_.resume(memory.solver);
   showState();
 }
@@ -94,8 +96,8 @@ std::string beyond(const Certificate& found, double most) {
 
 }  // namespace
 
-/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion. In a
-/// jump the next step may hold it.
+/// Refuses a solution whose residuals are no rounding, one that could be anywhere along a motion (in a jump
+/// the next step may hold it), and one in which bodies overlap although no contact explains it.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   const double most = std::max(residualTolerance, system_.options().tolerance);
   if (const std::string residual = outcome.converged() ? beyond(outcome.certificate, most) : "";
@@ -104,9 +106,19 @@ StepOutcome StepTaker::hold(StepOutcome outcome) {
   const bool asked = outcome.converged() && t1_ > state_.time;
   if (const std::string motion = asked ? system_.looseMotion(state_, solutions_.back()) : ""; !motion.empty())
     outcome.fail(Reason::unheld, "no closed contact holds " + motion);
+  if (outcome.converged()) {
+    overlap_ = overlapOf(solutions_.back(), t1_);
+    if (overlapEnds_ && overlap_.refused()) outcome.fail(Reason::overlap, overlap_.words);
+  }
   if (!outcome.converged()) memory_.increments.clear();
   memory_.solver = system_.memory();
   return outcome;
+}
+
+BodyOverlap StepTaker::overlapOf(const Iterate& iterate, double time) {
+  if (!overlapCheck_) overlapCheck_.emplace(model_);
+  const double residual = std::max(residualTolerance, system_.options().tolerance);
+  return overlapCheck_->find(displacements(state_, iterate), iterate.contactForce, time, residual);
 }
 
 StepOutcome StepTaker::solveStages(double t1, Effort effort) {
@@ -174,6 +186,11 @@ std::string StepTaker::stressAt(const StuckPlace& place) const {
   if (stress.rows() > 3) text += formatted(", s33 = %g", s[3]);
   if (body.dimension() == 3) text += formatted(", s13 = %g, s23 = %g", s[4], s[5]);
   return text;
+}
+
+std::string StepTaker::nearFacingLimit() {
+  showState();
+  return mortier::nearFacingLimit(model_, state_);
 }
 
 /// sum_{j<i} a_ij k G_j
@@ -254,8 +271,12 @@ double StepTaker::turnedShare() const {
 }
 
 void StepTaker::commit() {
-  if (std::exchange(showsState_, false)) gap0_ = followTo(solutions_.back(), false);
+  if (std::exchange(showsState_, false)) gap0_ = followTo(solutions_.back());
   if (countsWork_) countWork();
+  BodyOverlap& deepest = memory_.run.overlap;
+  if (overlap_.refused() > deepest.refused() ||
+      (overlap_.refused() == deepest.refused() && overlap_.depth > deepest.depth))
+    deepest = overlap_;
   state_.gap = solvedGaps(model_, gap0_, solutions_.back());
   const std::vector<double> work = dissipatedByFriction();
   for (size_t k = 0; k < work.size(); ++k) {

@@ -10,6 +10,7 @@
 #include "solver/solve_step.h"
 #include "solver/state.h"
 #include "time/memory.h"
+#include "time/overlap_check.h"
 #include "time/scheme.h"
 
 namespace mortier {
@@ -23,9 +24,10 @@ struct StepError {
 class StepTaker {
  public:
   /// \param countsWork  whether commit() adds to the work done on bodies (count_work.cpp)
+  /// \param overlapEnds  whether an overlap of bodies that nothing explains refuses an attempt
   /// \throws UnheldBodyError when nothing holds a body.
   StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
-            const SolverOptions& options, bool countsWork = false);
+            const SolverOptions& options, bool countsWork = false, bool overlapEnds = true);
 
   /// Solves the step from the state to `t1`. The state is not changed before commit().
   StepOutcome attempt(double t1, Effort effort = Effort::usual) { return attempt(t1, scheme_, effort); }
@@ -76,6 +78,8 @@ class StepTaker {
     keepRows();
     showsState_ = true;
   }
+  /// Of the state, what nearFacingLimit() says (facing_limit.h); rows become those of the state.
+  std::string nearFacingLimit();
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
   [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
@@ -96,6 +100,8 @@ class StepTaker {
   [[nodiscard]] std::string stressAt(const StuckPlace& place) const;
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
+  /// The deepest overlap of bodies at the end of the last attempt that was solved.
+  [[nodiscard]] const BodyOverlap& overlap() const { return overlap_; }
   StepSolutions takeSolutions() { return system_.takeSolutions(); }
   /// Makes the result of the last attempt the state.
   void commit();
@@ -108,10 +114,13 @@ class StepTaker {
  private:
   StepOutcome solveStages(double t1, Effort effort);
   StepOutcome hold(StepOutcome outcome);
+  /// By the boundaries of the bodies alone.
+  [[nodiscard]] BodyOverlap overlapOf(const Iterate& iterate, double time);
   /// solveStep(), repeated where contact follows the bodies (follow_bodies.cpp).
   StepOutcome solveStage(StepData& data, Iterate& iterate, Effort effort);
   StepOutcome repeatOnMovedBodies(StepData& data, Iterate& iterate, Effort effort);
-  std::vector<Vector> followTo(const Iterate& iterate, bool keepRows);
+  std::vector<Vector> followTo(const std::vector<Vector>& increments, bool keepRows);
+  std::vector<Vector> followTo(const Iterate& iterate);
   /// What friction dissipates in the last attempt, per interface [J/m].
   [[nodiscard]] std::vector<double> dissipatedByFriction() const;
   void keepRows();
@@ -151,6 +160,8 @@ class StepTaker {
   std::vector<std::array<ConstraintRows, 2>> rowsBefore_;  ///< T of the state where rows follow the bodies
   bool showsState_ = false;  ///< whether rows that follow are those of the state, not of the attempt
   bool countsWork_;
+  bool overlapEnds_;
+  std::optional<OverlapCheck> overlapCheck_;
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;                        ///< by stage
@@ -159,6 +170,7 @@ class StepTaker {
   std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body
   std::vector<Matrix> shift_;                             ///< of the last stage
   std::vector<Response> reached_;                         ///< of the error last taken through the stages
+  BodyOverlap overlap_;
   double t1_ = 0;
   bool guarded_ = false;
   bool startSolved_ = false;  ///< the state is the end of a step

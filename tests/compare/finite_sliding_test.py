@@ -65,6 +65,29 @@ end = 1
 steps = 20
 """
 
+FALLING = """\
+degree = DEGREE
+[[body]]
+name = "block"
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+mesh = { shape = "rectangle", lower = [-2, -1], upper = [0, 0], cells = [16, 6], cut = "both" }
+[[tool]]
+name = "disc"
+shape = "disc"
+centre = [-0.5, 1]
+radius = 1
+ux = "2*t"
+fy = "-0.5*min(10*t, 1)"
+rotation = 0
+[contact]
+sides = [ { body = "block", label = 3 }, { body = "disc" } ]
+sliding = "finite"
+[time]
+end = 1
+steps = 20
+"""
+
 
 class FiniteSliding(InFolder):
     def history(self, folder="out"):
@@ -179,14 +202,15 @@ class FiniteSliding(InFolder):
                 self.write(random_slides.scene(seed))
                 self.mortier("run", "scene.toml", "--quiet", "--out", "out")
 
-    # Friction at the lower edge is beyond what keeps a block of this height from tipping.
-    def test_a_block_that_tips_is_named_by_its_rotation(self):
+    # Friction at the lower edge is beyond what keeps a block of this height from tipping: it turns about its
+    # corner until that faces the table no more.
+    def test_a_block_that_tips_is_named_with_its_rotation(self):
         self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0.8").replace("HELD", "ty = -1")
                    .replace("upper = [1.5, 0.5]", "upper = [1.5, 1]"))
-        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
+        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
         self.assertRegex(done.stderr, "; bodies have turned by [0-9.e+]+ degrees, taken as small")
-        self.assertIn("contact does not hold body block there: a repetition moves it by a rotation about (",
-                      done.stderr)
+        self.assertRegex(done.stderr, r"contact [a-z ]*cannot hold body block: (rotation|translation) ")
+        self.assertEqual(json.loads(self.read("out.failed/summary.json"))["status"], "unheld")
 
     # Seeds whose load passes the last condition that is closed: near the end of the other body (160), or
     # within an element of the edge of the upper one.
@@ -194,10 +218,23 @@ class FiniteSliding(InFolder):
         for seed in (160, 334):
             with self.subTest(seed):
                 self.write(random_slides.scene(seed))
-                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
-                self.assertIn("contact does not settle", done.stderr)
-                self.assertIn("does not hold body upper there: a repetition moves it by a rotation about (",
-                              done.stderr)
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
+                self.assertRegex(done.stderr, r"contact [a-z ]*cannot hold body upper: rotation about \(")
+
+    # Frictionless, a disc with a vertical force is moved over the edge of a block.
+    def test_a_disc_that_is_moved_off_an_edge_falls(self):
+        for degree in (1, 2):
+            with self.subTest(degree):
+                self.write(FALLING.replace("DEGREE", str(degree)))
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
+                self.assertIn("contact cannot hold body disc: translation along (0, -1)", done.stderr)
+                limit = (r"the normals of the sides of block and disc make 12\d degrees, "
+                         "and sides touch where they make 120 or more")
+                self.assertRegex(done.stderr, limit)
+                self.assertNotIn("swap", done.stderr)  # tools refuse it
+                summary = json.loads(self.read("out.failed/summary.json"))
+                self.assertEqual(summary["status"], "unheld")
+                self.assertGreater(summary["steps"], 3)
 
     def test_a_hook_snaps(self):
         """The forces on each face of the nose, a polygon, have its direction and that of friction."""

@@ -24,7 +24,7 @@ struct Scalar {
 
 Scalar scalar(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree = 1,
               double stiffness = 1) {
-  const Coupling coupling = couple(kind, straightPart(nonmortar, degree), straightFacing(mortar, degree),
+  const Coupling coupling = couple(kind, StraightLines(nonmortar, mortar, degree).refinement,
                                    distanceOfCurves, {}, false, stiffness);
   const auto alongY = [](const Matrix& C) {
     EXPECT_EQ(C(Eigen::all, Eigen::seq(0, Eigen::last, 2)).cwiseAbs().sum(), 0);
@@ -217,7 +217,7 @@ TEST(Coupling, coarsenedRowsAreThoseThatTheMortarTraceTellsApart) {
   const Trace fine = evenTrace(0, 0.125, 8);
   const Trace coarse{0, 0.5, 1};
   const Coupling coupling =
-      couple(CouplingKind::coarsened, straightPart(fine), straightFacing(coarse), distanceOfCurves);
+      couple(CouplingKind::coarsened, StraightLines(fine, coarse).refinement, distanceOfCurves);
   EXPECT_EQ(coupling.nodes, (std::vector<int>{0, 4, 8}));
   EXPECT_LE((Matrix(coupling.mass) - Matrix(Vector{{0.25, 0.5, 0.25}}.asDiagonal())).norm(), reproduced);
   ASSERT_EQ(coupling.between.size(), 6U);
@@ -318,7 +318,7 @@ std::vector<Drawn> drawnDistances(double at) {
 
 Vector distancesOf(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree,
                    const Drawn& drawn) {
-  return couple(kind, straightPart(nonmortar, degree), straightFacing(mortar, degree),
+  return couple(kind, StraightLines(nonmortar, mortar, degree).refinement,
                 [&](int, double s, const FacingPair&) { return drawn(s); })
       .distance;
 }

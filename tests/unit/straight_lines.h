@@ -1,6 +1,8 @@
 // Two straight lines on each other, by the abscissae of their vertices.
 #pragma once
 
+#include <algorithm>
+
 #include "contact/coupling.h"
 
 namespace mortier {
@@ -30,11 +32,30 @@ inline SmoothPart straightPart(const Trace& trace, int degree = 1) {
   return part;
 }
 
-inline FacingLine straightFacing(const Trace& trace, int degree = 1) {
-  FacingLine line;
-  setOnAxis(line, trace, degree);
-  line.geometry.assign(trace.size() - 1, {{Point(0, 1), Point(0, 1)}, {}, {1, 1}, {0, true}});
-  return line;
+/// The same of a body below, which runs against it.
+inline SmoothPart straightPartBelow(const Trace& trace, int degree = 1) {
+  const SmoothPart above = straightPart(trace, degree);
+  SmoothPart part = above;
+  for (const auto reverse : {&SmoothPart::nodes, &SmoothPart::middles})
+    std::reverse((part.*reverse).begin(), (part.*reverse).end());
+  for (const auto reverse : {&SmoothPart::points, &SmoothPart::middlePoints})
+    std::reverse((part.*reverse).begin(), (part.*reverse).end());
+  for (size_t i = 0; i < trace.size(); ++i) part.s[i] = trace.back() - trace[trace.size() - 1 - i];
+  part.normals.assign(trace.size(), {0, 1});
+  return part;
 }
+
+struct StraightLines {
+  StraightLines(const Trace& nonmortar, const Trace& mortarTrace, int degree = 1)
+      : part(straightPart(nonmortar, degree)),
+        mortar({straightPartBelow(mortarTrace, degree)}, false),
+        refinement(part, mortar) {}
+  StraightLines(const StraightLines&) = delete;  // the refinement refers to the lines
+  StraightLines& operator=(const StraightLines&) = delete;
+
+  SmoothPart part;
+  MortarLine mortar;
+  CommonRefinement refinement;
+};
 
 }  // namespace mortier

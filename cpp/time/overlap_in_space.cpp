@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/smooth_part.h"
+#include "time/overlap_places.h"
+
+namespace mortier {
+namespace {
+
+double angle(const SpacePoint& a, const SpacePoint& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The turn of a surface at a triangle, where its sides are no edges of the body.
+double smoothTurn(const MovedSurface& surface, int triangle, bool reentrant) {
+  double most = 0;
+  for (int k = 0; k < 3; ++k)
+    if (const double turn = surface.turn(triangle, k); std::abs(turn) < sharpTurn)
+      most = std::max(most, reentrant ? -turn : std::abs(turn));
+  return most;
+}
+
+double changeOfTurn(const MovedSurface& drawn, const MovedSurface& moved, int triangle) {
+  double most = 0;
+  for (int k = 0; k < 3; ++k)
+    most = std::max(most, std::abs(moved.turn(triangle, k) - drawn.turn(triangle, k)));
+  return most;
+}
+
+/// What a point of a triangle is moved by.
+SpacePoint motionAt(const MovedSurface& drawn, const MovedSurface& moved, int triangle, const SpacePoint& x) {
+  const SpacePoint &a = moved.corner(triangle, 0), &b = moved.corner(triangle, 1),
+                   &c = moved.corner(triangle, 2);
+  const SpacePoint n = (b - a).cross(c - a);
+  const double whole = n.squaredNorm();
+  const double atB = (x - a).cross(c - a).dot(n) / whole;
+  const double atC = (b - a).cross(x - a).dot(n) / whole;
+  const auto motion = [&](int k) -> SpacePoint {
+    return moved.corner(triangle, k) - drawn.corner(triangle, k);
+  };
+  return (1 - atB - atC) * motion(0) + atB * motion(1) + atC * motion(2);
+}
+
+}  // namespace
+
+std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other, const Places& places,
+                                                        const std::vector<Between>& contacts) const {
+  const std::vector<SpacePointInside> found =
+      pointsInside(places.surfaces[one], places.surfaces[other], places.rounding);
+  if (found.empty()) return {};
+  Region region;
+  for (const SpacePointInside& point : found) {
+    const size_t own = point.of == 0 ? one : other;
+    const size_t across = point.of == 0 ? other : one;
+    const MovedSurface& drawn = spaceDrawn_[own];
+    const MovedSurface& drawnAcross = spaceDrawn_[across];
+    const MovedSurface& moved = places.surfaces[own];
+    const MovedSurface& movedAcross = places.surfaces[across];
+    if (point.of == 0 && !point.node) region.area += moved.area(point.triangle);
+    const int label = spaceOutlines_[own].labels[point.triangle];
+    const int labelAcross = spaceOutlines_[across].labels[point.across];
+    const double size = drawn.size(point.triangle);
+    const double sizeAcross = drawnAcross.size(point.across);
+    Sample sample{{static_cast<int>(own), static_cast<int>(across)},
+                  {label, labelAcross},
+                  point.at,
+                  point.depth,
+                  std::max(size, sizeAcross)};
+    const SpacePoint motion = motionAt(drawn, moved, point.triangle, point.at);
+    double asked = 0;
+    double nonmortar = 0;
+    double inclined = 0;
+    bool named = false;
+    const double inclination = angle(moved.normal(point.triangle), -movedAcross.normal(point.across));
+    for (const Between& contact : contacts) {
+      const ContactPair& pair = contact.interface->pair();
+      const bool isNonmortar = pair.nonmortar.body == static_cast<int>(own);
+      nonmortar = std::max(nonmortar, isNonmortar ? size : sizeAcross);
+      inclined = inclination < sharpTurn ? inclination : 0;
+      named = named || (isNonmortar ? pair.nonmortar.label == label && pair.mortar.label == labelAcross
+                                    : pair.nonmortar.label == labelAcross && pair.mortar.label == label);
+      const std::array<int, 3>& triangle = isNonmortar ? spaceOutlines_[own].triangles[point.triangle]
+                                                       : spaceOutlines_[across].triangles[point.across];
+      for (const int node : triangle) {
+        const auto at = std::lower_bound(contact.asked.begin(), contact.asked.end(), std::pair(node, 0.0));
+        if (at != contact.asked.end() && at->first == node) asked = std::max(asked, at->second);
+      }
+    }
+    if (!named) asked = std::max(asked, -drawnAcross.nearest(point.at - motion).distance);
+    const double chords = (point.node ? 0 : size * smoothTurn(drawn, point.triangle, true) / 4) +
+                          sizeAcross * smoothTurn(drawnAcross, point.across, true) / 4;
+    const SpacePoint relative = motion - motionAt(drawnAcross, movedAcross, point.across, point.foot);
+    const SpacePoint& n = drawn.normal(point.triangle);
+    const double slip = (relative - n.dot(relative) * n).norm();
+    const double turn = std::max(angle(n, -movedAcross.normal(point.across)),
+                                 angle(drawnAcross.normal(point.across), -moved.normal(point.triangle)));
+    const double slide = slip > sample.size ? infinity : slip * std::min(1.0, turn);
+    sample.always =
+        places.residual + places.rounding + asked + overlap::chords * chords + overlap::sliding * slide;
+    const double curvature = smoothTurn(drawn, point.triangle, false) / size +
+                             smoothTurn(drawnAcross, point.across, false) / sizeAcross;
+    sample.pressed = overlap::meshes * (size * changeOfTurn(drawn, moved, point.triangle) +
+                                        sizeAcross * changeOfTurn(drawnAcross, movedAcross, point.across) +
+                                        curvature * nonmortar * nonmortar / 4) +
+                     inclined * nonmortar / 3;
+    sample.nonmortar = nonmortar;
+    region.samples.push_back(sample);
+  }
+  return {region};
+}
+
+}  // namespace mortier
