@@ -51,9 +51,11 @@ class Volume(InFolder):
                 ([RUBBER], lower), ([FLOWS], lower), ([RUBBER, "degree=2"], lower), ([FLOWS, "degree=2"], []),
                 ([RUBBER, "plane=axisymmetric"], lower), ([FLOWS, "plane=axisymmetric"], lower),
                 ([RUBBER, "plane=stress"], []), ([FLOWS, "plane=stress"], []), ([own], []), ([region], lower),
-                ([RUBBER, "body.lower.mesh.cut=both"], lower), ([FLOWS, "body.lower.mesh.cut=both"], []),
+                ([RUBBER, "body.lower.mesh.cut=both"], lower), ([FLOWS, "body.lower.mesh.cut=both"], lower),
                 ([FLOWS, "body.lower.mesh.cut=both", "plane=axisymmetric"], lower),
-                (["body.lower.material.poisson=0.49"], []),
+                (["body.lower.material.poisson=0.44"], []), (["body.lower.material.poisson=0.45"], lower),
+                (["body.lower.material.poisson=0.49"], lower),
+                (["body.lower.material.poisson=0.49", "degree=2"], []),
                 (["body.material.poisson=0.499"], ["body upper", *lower])):
             with self.subTest(settings):
                 self.assertEqual(self.checked(*settings), (averaged, [], []))
