@@ -21,7 +21,8 @@ class RandomContacts(unittest.TestCase):
         self.examine(corner_forces, 20)
 
     def test_forces_are_those_of_the_scene_in_other_words(self):
-        self.examine(metamorphic, 9, (2,), "points inserted into a tool change its force by the mesh error")
+        changed = "points inserted into a tool change its force by the mesh error"
+        self.examine(metamorphic, 9, (2,), changed)
 
     def test_tools_are_pressed_without_hidden_overlap(self):
         self.examine(pressed_tools, 15)
