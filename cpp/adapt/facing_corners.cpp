@@ -34,8 +34,9 @@ std::optional<CornerCut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curv
     const double distance = (place - at).norm();
     if (distance >= least) continue;
     least = distance;
-    const bool curved = curves.count({a, b}) > 0 || curves.count({b, a}) > 0 ||
-                        (!mesh.edgeMiddles.empty() && mesh.edgeMiddles[e].allFinite());
+    const bool curved =
+        curves.count({a, b}) > 0 || curves.count({b, a}) > 0 ||
+        (!mesh.edgeMiddles.empty() && mesh.edgeMiddles[e].allFinite() && !isStraight(mesh, e));
     const bool apart = distance > along.norm();
     if (curved || apart || part < nextToAVertex || part > 1 - nextToAVertex)
       cut.reset();
@@ -48,11 +49,16 @@ std::optional<CornerCut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curv
 void apply(TriangleMesh& mesh, const CornerCut& cut) {
   const auto [a, b] = mesh.boundaryEdges[cut.edge];
   const auto m = static_cast<int>(mesh.vertices.size());
+  const bool straight = isStraight(mesh, cut.edge);
   mesh.vertices.push_back(cut.at);
   mesh.boundaryEdges[cut.edge] = {a, m};
   mesh.boundaryEdges.push_back({m, b});
   mesh.boundaryLabels.push_back(mesh.boundaryLabels[cut.edge]);
   if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.push_back(mesh.edgeMiddles[cut.edge]);
+  if (straight) {
+    mesh.edgeMiddles[cut.edge] = (mesh.vertices[a] + cut.at) / 2;
+    mesh.edgeMiddles.back() = (cut.at + mesh.vertices[b]) / 2;
+  }
   if (!mesh.edgeCurves.empty()) mesh.edgeCurves.emplace_back();
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {

@@ -79,11 +79,11 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactPair& pair = model.interfaces[k].pair();
-    const auto partsOf = [&](const ContactSide& side) {
-      return smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
+    const auto partsOf = [&](const ContactSide& side, Kinks kinks) {
+      return smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label), kinks);
     };
-    const std::vector<SmoothPart> parts = partsOf(pair.nonmortar);
-    const std::vector<SmoothPart> across = partsOf(pair.mortar);
+    const std::vector<SmoothPart> parts = partsOf(pair.nonmortar, Kinks::none);
+    const std::vector<SmoothPart> across = partsOf(pair.mortar, Kinks::ofStraightElements);
     const auto straight = [](const SmoothPart& part) { return part.straight; };
     // Contact acts along the normals of the nonmortar line alone, whatever corners the other one has.
     const ContactDescription& contact = scene.contacts[k];

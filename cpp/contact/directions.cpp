@@ -53,7 +53,7 @@ class Directions {
       const bool end = !part_.closed && (i == 0 || i == part_.elements());
       const bool faces = end && (part_.corners[i == 0 ? 0 : 1] || std::abs(ahead_[i].slope) < steepest);
       const double weight = std::min(pointWeightOf(std::abs(ahead_[i].slope)), toEnd_[i]);
-      if (kept == nullptr && faces && ahead_[i].part >= 0 && weight > 0)
+      if (kept == nullptr && faces && hit.found() && ahead_[i].part >= 0 && weight > 0)
         add({i, std::min(i, part_.elements() - 1), part_.s[i], hit.element, weight, true});
       if (kept == nullptr) continue;
       for (CornerContact corner : kept->corners)
@@ -168,18 +168,55 @@ class Directions {
   Point directionAt(int i, LineHit& hit) {
     constexpr int most = 30;
     constexpr double same = 1e-15;
-    if (ahead_[i].part < 0) return besideEnd(i);
+    if (ahead_[i].part < 0) hit = acrossFrom(i);
+    if (!hit.found()) return besideEnd(i);
+    const LineHit first = hit;
+    const bool fades = std::isfinite(mortar_.toCorner(hit.element, hit.xi)) && toEnd_[i] == 0;
     Point n = part_.normals[i];
     for (int k = 0; k < most; ++k) {
       const Point before = n;
       n = blended(i, mortar_.normalAt(hit.element, hit.xi), mortar_.curvatureAt(hit.element, hit.xi),
                   mortar_.toCorner(hit.element, hit.xi));
-      if ((n - before).lpNorm<Eigen::Infinity>() <= same) break;
-      const LineHit onwards = mortar_.along(part_.points[i], n);
-      if (!onwards.found()) break;
-      hit = onwards;
+      if ((n - before).lpNorm<Eigen::Infinity>() <= same) return n;
+      hit = mortar_.along(part_.points[i], n);
+      if (!hit.found() && !fades) return n;
+      if (!hit.found()) break;
     }
-    return n;
+    return fades ? besideCorner(i, first, hit) : n;
+  }
+
+  /// Where w and what is faced do not settle: a steep side is far off, and the ray jumps to and fro over its
+  /// end. The share w(hit) falls to 0 towards that end, so that it equals w in between.
+  Point besideCorner(int i, const LineHit& first, LineHit& hit) {
+    constexpr int halvings = 50;
+    const Point n2 = mortar_.normalAt(first.element, first.xi);
+    const double curvature = mortar_.curvatureAt(first.element, first.xi);
+    const auto ray = [&](double share) {
+      return Point(((1 - share) * part_.normals[i] - share * n2).normalized());
+    };
+    double share = kept_ != nullptr ? shares_[i] : 0;
+    double above = kept_ != nullptr ? share : 1;
+    for (int k = 0; k < halvings && share < above; ++k) {
+      const double middle = (share + above) / 2;
+      const LineHit there = mortar_.along(part_.points[i], ray(middle));
+      const bool samePart =
+          there.found() && mortar_.geometry[there.element].part == mortar_.geometry[first.element].part;
+      const bool isBelow =
+          samePart && mortarShare(i, curvature, mortar_.toCorner(there.element, there.xi)) > middle;
+      (isBelow ? share : above) = middle;
+    }
+    shares_[i] = share;
+    hit = mortar_.along(part_.points[i], ray(share));
+    return ray(share);
+  }
+
+  /// What a vertex on a curve whose own normal misses the mortar line faces: the ray along the normal of the
+  /// nearest point of that line, so that the length of the line does not matter.
+  [[nodiscard]] LineHit acrossFrom(int i) const {
+    if (part_.straight || share_ == 0.0) return {};
+    const LineHit nearest = mortar_.nearestTo(part_.points[i]);
+    const Point across = -mortar_.normalAt(nearest.element, nearest.xi);
+    return part_.normals[i].dot(across) > 0 ? mortar_.along(part_.points[i], across) : LineHit{};
   }
 
   /// At a vertex past an end of the mortar line by less than an element: as at that end.

@@ -85,6 +85,17 @@ LineHit MortarLine::along(const Point& x, const Point& n) const {
   return result != nullptr ? result->hit : LineHit{};
 }
 
+LineHit MortarLine::nearestTo(const Point& x) const {
+  LineHit nearest;
+  tree.near(x, nearest.distance, [&](int j) {
+    const Point side = points[j + 1] - points[j];
+    const double xi = std::clamp((x - points[j]).dot(side) / side.squaredNorm(), 0.0, 1.0);
+    const double distance = (at(j, xi) - x).norm();
+    if (distance < nearest.distance) nearest = {j, xi, distance};
+  });
+  return nearest;
+}
+
 double MortarLine::partAlong(int element, const Point& x, const Point& n) const {
   const Point& a = points[element];
   double xi = cross(x - a, n) / cross(points[element + 1] - a, n);

@@ -33,7 +33,8 @@ struct LineHit {
 /// The mortar line, against the direction of its body, with the normals and curvatures of its smooth parts.
 /// It has no abscissae.
 struct MortarLine : ElementLine {
-  explicit MortarLine(const BoundaryLine& boundary) : MortarLine(smoothParts(boundary), boundary.closed) {}
+  explicit MortarLine(const BoundaryLine& boundary)
+      : MortarLine(smoothParts(boundary, Kinks::ofStraightElements), boundary.closed) {}
   MortarLine(const std::vector<SmoothPart>& parts, bool closed);
 
   std::vector<MortarElement> geometry;  ///< by elements
@@ -43,6 +44,8 @@ struct MortarLine : ElementLine {
   /// The nearest point on the line through x along n that x faces: n points into the mortar body there, and
   /// no other point of the line lies between.
   [[nodiscard]] LineHit along(const Point& x, const Point& n) const;
+  /// The point of the line nearest to x.
+  [[nodiscard]] LineHit nearestTo(const Point& x) const;
   /// The part of an element at which (y - x) x n = 0, beyond its ends where that is there.
   [[nodiscard]] double partAlong(int element, const Point& x, const Point& n) const;
   /// Between the ends of an element; at the nearer end beyond them.

@@ -38,16 +38,26 @@ Bends bendsOf(const BoundaryLine& line) {
   return bends;
 }
 
-std::vector<int> cornersOf(const BoundaryLine& line) {
+/// Whether an element is known to be straight.
+bool isStraight(const BoundaryLine& line, int e) {
+  return !line.middles.empty() && line.middles[e] == (line.points[e] + line.points[e + 1]) / 2;
+}
+
+std::vector<int> cornersOf(const BoundaryLine& line, Kinks kinks) {
   constexpr double degree = M_PI / 180;
   constexpr double least = degree;
   constexpr double ratio = 4;
+  constexpr double rounding = 1e-6;  // rad
   const Bends bends = bendsOf(line);
   const auto last = static_cast<int>(line.points.size()) - 1;
   std::vector<int> corners;
   for (int i = line.closed ? 0 : 1; i < last; ++i) {
-    const double neighbours = std::max(bends.curvature[i == 0 ? last - 1 : i - 1], bends.curvature[i + 1]);
-    if (bends.turn[i] > sharpTurn || (bends.turn[i] > least && bends.curvature[i] > ratio * neighbours))
+    const int before = i == 0 ? last - 1 : i - 1;
+    const double neighbours = std::max(bends.curvature[before], bends.curvature[i + 1]);
+    const bool kink = kinks == Kinks::ofStraightElements && bends.turn[i] > rounding &&
+                      isStraight(line, before) && isStraight(line, i);
+    if (kink || bends.turn[i] > sharpTurn ||
+        (bends.turn[i] > least && bends.curvature[i] > ratio * neighbours))
       corners.push_back(i);
   }
   return corners;
@@ -170,10 +180,10 @@ BoundaryLine begunAt(const BoundaryLine& line, int first) {
   return result;
 }
 
-std::vector<SmoothPart> smoothParts(const BoundaryLine& line) {
-  std::vector<int> corners = cornersOf(line);
+std::vector<SmoothPart> smoothParts(const BoundaryLine& line, Kinks kinks) {
+  std::vector<int> corners = cornersOf(line, kinks);
   if (line.closed && !corners.empty() && corners.front() != 0)
-    return smoothParts(begunAt(line, corners.front()));
+    return smoothParts(begunAt(line, corners.front()), kinks);
   const bool closed = line.closed && corners.empty();
   if (corners.empty() || corners.front() != 0) corners.insert(corners.begin(), 0);
   corners.push_back(static_cast<int>(line.points.size()) - 1);

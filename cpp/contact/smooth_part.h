@@ -143,8 +143,12 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
   [[nodiscard]] Point direction(int element) const;
 };
 
+/// What else is a corner: every node between elements that are known to be straight, however little the line
+/// turns there. Of a mortar line it is; a nonmortar node would get two conditions of nearly one direction.
+enum class Kinks { none, ofStraightElements };
+
 /// The parts in their order. A closed line without a corner is one closed part.
-std::vector<SmoothPart> smoothParts(const BoundaryLine& line);
+std::vector<SmoothPart> smoothParts(const BoundaryLine& line, Kinks kinks = Kinks::none);
 
 /// The part where displacements (by dofs of its mesh) have moved it, as a curve; its curvatures, and what its
 /// elements stand for, are those of the drawn one.

@@ -76,13 +76,13 @@ namespace {
 
 const Point unknownPoint = Point::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// Of a curve that has a shape, not of a line or of one that is its mesh; else empty.
+/// Of a curve that has a shape, not of one that is its mesh; else empty.
 std::string shapeOf(const Gmsh& gmsh, int curve) {
   char* type = nullptr;
   gmsh.call<decltype(gmshModelGetType)>("gmshModelGetType", 1, curve, &type);
   std::string word = type == nullptr ? "" : type;
   if (type != nullptr) gmsh.take(Gmsh::Array<char>{type, 0});
-  return word == "Line" || word.find("Discrete") != std::string::npos ? "" : word;
+  return word.find("Discrete") != std::string::npos ? "" : word;
 }
 
 /// The point of a curve nearest to the middle of one of its edges; none where Gmsh finds none near it.
@@ -230,15 +230,24 @@ std::vector<KnownEdge> knownEdges(const Gmsh& gmsh, int curve, const std::vector
   std::vector<KnownEdge> edges(ends.size() / 2, {unknownPoint});
   const std::string shape = shapeOf(gmsh, curve);
   if (shape.empty()) return edges;
-  std::optional<GmshCurve> byParameter = shape == "Circle" ? std::nullopt : curveOf(gmsh, curve);
+  std::optional<GmshCurve> byParameter =
+      shape == "Circle" || shape == "Line" ? std::nullopt : curveOf(gmsh, curve);
   for (size_t e = 0; e < edges.size(); ++e) {
     const Point& a = nodes.at.at(ends[2 * e]);
     const Point& b = nodes.at.at(ends[2 * e + 1]);
+    if (shape == "Line") {
+      edges[e].middle = (a + b) / 2;
+      continue;
+    }
     edges[e].middle = middleOn(gmsh, curve, nodes.z, a, b);
     if (!byParameter) continue;
     const EdgeCurve found = byParameter->between(ends[2 * e], a, ends[2 * e + 1], b);
     if (!found.known()) byParameter.reset();  // nor are the others
-    if (!found.known() || isStraight(*found.curve)) continue;
+    if (!found.known()) continue;
+    if (isStraight(*found.curve)) {
+      edges[e].middle = (a + b) / 2;
+      continue;
+    }
     const Point middle = found.at(found.middle());
     if (!((middle - (a + b) / 2).norm() < (b - a).norm() / 2)) continue;
     edges[e] = {middle, found};

@@ -59,8 +59,8 @@ struct PlaneNodes {
   double z = 0;
 };
 
-/// Of an edge: the middle of what it stands for [m], not finite where that is not known or straight, and the
-/// curve where that is no circle.
+/// Of an edge: the middle of what it stands for [m], not finite where that is not known, and the curve where
+/// that is neither a circle nor straight.
 struct KnownEdge {
   Point middle;
   EdgeCurve curve = {};

@@ -213,6 +213,8 @@ class Bisection {
         mesh.edgeMiddles.push_back(old_.edgeMiddles[from_[e]]);
       else if (mesh.hasCurve(e))
         mesh.edgeMiddles.push_back(mesh.edgeCurves[e].at(mesh.edgeCurves[e].middle()));
+      else if (isStraight(old_, from_[e]))
+        mesh.edgeMiddles.emplace_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
       else if (curve != result_.curves.end())
         mesh.edgeMiddles.push_back(middleOfArc(mesh.vertices[a], mesh.vertices[b], curve->second));
       else
@@ -236,6 +238,11 @@ class Bisection {
 };
 
 }  // namespace
+
+bool isStraight(const TriangleMesh& mesh, size_t edge) {
+  const auto& [a, b] = mesh.boundaryEdges[edge];
+  return !mesh.edgeMiddles.empty() && mesh.edgeMiddles[edge] == (mesh.vertices[a] + mesh.vertices[b]) / 2;
+}
 
 RefinedMesh bisect(const TriangleMesh& mesh, const CurvedEdges& curves, const std::vector<char>& marked) {
   return Bisection(mesh, curves).run(marked);

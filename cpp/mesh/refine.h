@@ -43,6 +43,9 @@ std::tuple<double, int, int> rankOfSide(const std::vector<Place>& vertices, int 
   return {std::round(digits * length), high, low};
 }
 
+/// Whether a boundary edge is known to be straight (TriangleMesh::edgeMiddles).
+bool isStraight(const TriangleMesh& mesh, size_t edge);
+
 /// Cuts the triangles that are marked, and as many more as it takes. New vertices of curved edges are put
 /// onto their arcs or curves, as far from one end as from the other. Regions, labels, names, the middles and
 /// the curves of edges go on.

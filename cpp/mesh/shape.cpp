@@ -186,7 +186,6 @@ Outline splineOutline(const std::vector<Point>& points) {
 }
 
 TriangleMesh outlineMesh(const Outline& outline) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<int>(outline.points.size());
   TriangleMesh mesh;
   mesh.name = outline.name;
@@ -194,11 +193,15 @@ TriangleMesh outlineMesh(const Outline& outline) {
   mesh.boundaryLabels = outline.labels;
   mesh.labelNames = outline.labelNames;
   for (int k = 0; k < n; ++k) mesh.boundaryEdges.push_back({k, (k + 1) % n});
-  if (!outline.curves.empty()) {
-    mesh.edgeCurves = outline.curves;
-    for (const EdgeCurve& curve : outline.curves)
-      mesh.edgeMiddles.push_back(curve.known() ? curve.at(curve.middle()) : Point(unknown, unknown));
+  for (size_t e = 0; e < outline.curves.size(); ++e) {
+    const auto& [a, b] = mesh.boundaryEdges[e];
+    const EdgeCurve& curve = outline.curves[e];
+    mesh.edgeMiddles.push_back(curve.known() ? curve.at(curve.middle())
+                                             : Point((mesh.vertices[a] + mesh.vertices[b]) / 2));
   }
+  if (std::any_of(outline.curves.begin(), outline.curves.end(),
+                  [](const auto& curve) { return curve.known(); }))
+    mesh.edgeCurves = outline.curves;
   double area = 0;
   for (int k = 0; k < n; ++k) area += cross(outline.points[k], outline.points[(k + 1) % n]);
   if (!(area > 0)) throw InputError("runs clockwise, expected the body to the left of the outline");

@@ -16,7 +16,7 @@ namespace mortier {
 struct Outline {
   std::vector<Point> points;           ///< [m]
   std::vector<int> labels;             ///< by edges
-  std::vector<EdgeCurve> curves = {};  ///< by edges; empty where none stands for a curve that is no circle
+  std::vector<EdgeCurve> curves = {};  ///< by edges, straight where there is none; empty: nothing is known
   std::string name = {};               ///< for messages
   std::map<std::string, int> labelNames = {};
 };

@@ -210,6 +210,13 @@ TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
   constexpr double rounding = 1e-12;  // of the largest radius
   double largest = 0;
   for (const Point& vertex : mesh.vertices) largest = std::max(largest, std::abs(vertex.x()));
+  std::vector<size_t> straight;
+  const auto halfway = [&mesh](size_t e) -> Point {
+    const auto& [a, b] = mesh.boundaryEdges[e];
+    return (mesh.vertices[a] + mesh.vertices[b]) / 2;
+  };
+  for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e)
+    if (mesh.edgeMiddles[e] == halfway(e)) straight.push_back(e);
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     double& radius = mesh.vertices[v].x();
     if (std::abs(radius) <= rounding * largest) radius = 0;
@@ -219,6 +226,7 @@ TriangleMesh meshAboutAxis(TriangleMesh mesh, const char* beside) {
   }
   for (Point& middle : mesh.edgeMiddles)
     if (std::abs(middle.x()) <= rounding * largest) middle.x() = 0;
+  for (const size_t e : straight) mesh.edgeMiddles[e] = halfway(e);
   return mesh;
 }
 

@@ -56,8 +56,8 @@ struct TriangleMesh {
   std::vector<int> boundaryLabels;                ///< label of each boundary edge
   std::map<std::string, int> labelNames = {};     ///< boundary labels that have a name
   std::map<std::string, int> regionNames = {};
-  /// By boundary edge a point between its ends on the curve that it stands for [m], not finite where none is
-  /// known; empty where none is at all.
+  /// By boundary edge a point between its ends on the curve that it stands for [m], halfway where it is known
+  /// to be straight, not finite where nothing is known; empty where nothing is at all.
   std::vector<Point> edgeMiddles = {};
   /// By boundary edge what it stands for where that is known and no circle; empty where no edge has such a
   /// curve. Its middle is in `edgeMiddles`.

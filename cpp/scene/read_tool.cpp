@@ -30,21 +30,6 @@ std::vector<Point> distinctPoints(const TableReader& table, size_t least, size_t
   return points;
 }
 
-/// Nodes beside the corners of each side make corners of them for contact (contact/smooth_part.h), however
-/// their neighbours turn; up to these nodes the direction of contact is that of the side.
-Outline polygonOutline(const std::vector<Point>& corners, const std::vector<int>& labels) {
-  constexpr double beside = 1.0 / 32;  // of the side
-  Outline outline;
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const Point side = corners[(k + 1) % corners.size()] - corners[k];
-    for (const double part : {0.0, beside, 1 - beside}) {
-      outline.points.emplace_back(corners[k] + part * side);
-      outline.labels.push_back(labels[k]);
-    }
-  }
-  return outline;
-}
-
 Outline readOutline(const TableReader& table, bool axisymmetric) {
   enum Family { line, disc, rectangle, polygon, spline };
   constexpr size_t mostCorners = 1000;
@@ -73,7 +58,7 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   if (family == polygon) {
     const std::vector<Point> corners = distinctPoints(
         table, 3, mostCorners, "3 to 1000 corners [[x, y], ...], counterclockwise, none twice in turn");
-    return polygonOutline(corners, labelsOf(table, corners.size()));
+    return {corners, labelsOf(table, corners.size()), std::vector<EdgeCurve>(corners.size())};
   }
   const std::vector<Point> through = distinctPoints(
       table, 3, mostPoints, "3 to 100 points [[x, y], ...], the tool to the left, none twice in turn");

@@ -3,6 +3,8 @@ import argparse
 import csv
 import json
 import re
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -103,7 +105,7 @@ def ended(what, run, code=0):
 
 @dataclass
 class Run:
-    code: int  # None: took longer than the patience
+    code: int  # None: did not end
     told: str  # standard error without warnings
     log: str  # standard output and error
     summary: dict = field(default_factory=dict)
@@ -142,17 +144,22 @@ def table(path):
 
 
 def solve(program, text, *options, files=None, fields=False, patience=120, command="run"):
-    """A run of a scene in a folder of its own; with options of the command line."""
+    """A run of a scene in a folder of its own; with options of the command line. patience: processor time,
+    which does not depend on what else runs."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for file, content in {**(files or {}), "scene.toml": text}.items():
             (folder / file).write_text(content)
         out = ["--out", "out"] if command == "run" else []
+        limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (patience, patience + 1))
         try:
             done = subprocess.run([program, command, "scene.toml", *out, *options], cwd=folder, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=patience)
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=10 * patience,
+                                  preexec_fn=limit)
         except subprocess.TimeoutExpired:
-            return Run(None, "does not end", "")
+            return Run(None, f"did not end in {10 * patience} s", "")
+        if done.returncode == -signal.SIGXCPU:
+            return Run(None, f"took more than {patience} s of processor time", "")
         told = " ".join(line for line in done.stderr.splitlines() if ": warning: " not in line)
         run = Run(done.returncode, told, done.stdout + done.stderr)
         out = folder / ("out" if done.returncode == 0 else "out.failed")

@@ -44,7 +44,7 @@ std::vector<Point> circle(int edges, const Point& centre, double radius) {
 
 TEST(CommonRefinement, aWholeCircleFacesALineOfAnyLengthAndAnyCut) {
   const SmoothPart part = smoothParts(lineThrough(circle(96, {0, 1.01}, 1), true)).front();
-  for (const double half : {2.0, 3.0, 5.0, 100.0})
+  for (const double half : {0.9, 1.05, 2.0, 3.0, 5.0, 100.0})
     for (const int edges : {1, 2, 10, 100}) {
       const MortarLine line(lineThrough(cut({{half, 0}, {-half, 0}}, edges)));
       const CommonRefinement refinement(part, line);

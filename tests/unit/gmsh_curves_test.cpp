@@ -198,9 +198,12 @@ TEST(GmshCurves, straightSplinesAndLinesAreStraight) {
       meshOf(beside("Point(8) = {1, 0, 0, 0.7}; Point(9) = {3, 0, 0, 0.7}; BSpline(1) = {1, 8, 9, 2};", 0.7));
   if (!mesh) return;
   EXPECT_TRUE(mesh->edgeCurves.empty());
+  for (size_t e = 0; e < mesh->boundaryEdges.size(); ++e) EXPECT_TRUE(isStraight(*mesh, e)) << e;
   AdaptedMeshes meshes({*mesh}, 1);
   for (int i = 0; i < 4; ++i) meshes.refineAll();
   for (const int v : verticesOn(meshes.mesh(0), 1)) EXPECT_NEAR(meshes.mesh(0).vertices[v].y(), 0, 1e-14);
+  for (size_t e = 0; e < meshes.mesh(0).boundaryEdges.size(); ++e)
+    EXPECT_TRUE(isStraight(meshes.mesh(0), e)) << e;
 }
 
 TEST(GmshCurves, circlesStayArcs) {
