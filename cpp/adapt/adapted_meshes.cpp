@@ -134,6 +134,27 @@ void AdaptedMeshes::refineAll() {
     std::visit([&](auto& of) { cut(of, std::vector<char>(elementsOf(of.mesh).size(), 1)); }, body);
 }
 
+void AdaptedMeshes::halveAt(size_t body, const SpacePoint& place) {
+  std::visit(
+      [&](auto& of) {
+        for (int i = 0; i < dimension_; ++i) {
+          std::vector<char> marked;
+          for (const auto& element : elementsOf(of.mesh)) {
+            double length = 0;
+            double away = std::numeric_limits<double>::infinity();
+            for (const int v : element) {
+              const auto& x = of.mesh.vertices[v];
+              for (const int other : element) length = std::max(length, (of.mesh.vertices[other] - x).norm());
+              away = std::min(away, (x - place.head<std::decay_t<decltype(x)>::RowsAtCompileTime>()).norm());
+            }
+            marked.push_back(away <= length ? 1 : 0);
+          }
+          cut(of, marked);
+        }
+      },
+      bodies_[body]);
+}
+
 void AdaptedMeshes::faceCorners(size_t body, int label, size_t otherBody, int otherLabel) {
   auto& one = std::get<InPlane>(bodies_[body]);
   auto& other = std::get<InPlane>(bodies_[otherBody]);

@@ -54,6 +54,8 @@ class AdaptedMeshes {
   void refine(const std::vector<Vector>& errors, double aim);
   /// Cuts every element in two.
   void refineAll();
+  /// Halves the size of the elements at a place: those with a vertex no farther than they are long.
+  void halveAt(size_t body, const SpacePoint& place);
   // In the plane:
   /// Gives each of two lines that face each other a vertex where the other one has a corner.
   void faceCorners(size_t body, int label, size_t otherBody, int otherLabel);

@@ -111,6 +111,15 @@ ResolvedScene Rounds::scene() const {
 }
 
 Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
+  constexpr int mostMissed = 8;
+  if (result.missed && result.missed->all) {
+    ++done_;
+    meshError_ = 0;
+    corrected_ = std::numeric_limits<double>::infinity();
+    if (++missed_ > mostMissed)
+      return stop("meshes that become finer where the bodies overlap find no contact");
+    return refine(result, 0, result.seconds, seconds) ? Verdict::goOn : Verdict::notReached;
+  }
   if (aims()) return judgeAim(result, seconds);
   const double asked = description_.accuracy.energy;
   double sum = 0;
@@ -122,7 +131,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   const double error = corrected_ + result.time;
   // Bounds of coarse meshes are many times the error, and fall faster.
   const bool far = error > least_ * asked && corrected_ > bounded_ / 2;
-  if (done_ > 1 && error <= leastOf(asked) * asked && !far && !result.overlaps) {
+  if (!isFirst() && error <= leastOf(asked) * asked && !far && !result.missed) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
     least_ = careful * corrected_ / std::min(*bound, 1.0);
@@ -132,7 +141,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
-  if (done_ > 1 && corrected_ <= ofMeshes && !result.overlaps) {
+  if (!isFirst() && corrected_ <= ofMeshes && !result.missed) {
     if (lastSteps)
       return stop("the error of the steps, " + digits(100 * result.time) + " %" + ", does not fall");
     timeTolerance_ = timeShare();
@@ -157,7 +166,7 @@ Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
   meshes_.learn(result.errors);
   const double asked = std::sqrt(description_.accuracy.tolerance);
   least_ = aim.proved ? 1 : leastShare;
-  if ((aim.proved || done_ > 1) && corrected_ <= least_ * asked && !result.overlaps) return Verdict::reached;
+  if ((aim.proved || !isFirst()) && corrected_ <= least_ * asked && !result.missed) return Verdict::reached;
   return goOn(result, least_ * asked, seconds);
 }
 
@@ -179,7 +188,7 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   const double excess = corrected_ / ((space ? carefulInSpace : careful) / leastShare * ofMeshes);
   const double reduction = space ? reductionInSpace : reductionInPlane;
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reduction)));
-  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : last);
+  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, isFirst() ? first : last);
   double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;
@@ -202,12 +211,14 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
   constexpr const char* tooLong = "a further round would take more than max_seconds";
   try {
     // Where the meshes that are wanted are too large, those that are not.
-    for (; aim == 0 || aim <= gain * meshError_ || done_ == 1; aim = std::sqrt(aim * meshError_)) {
+    for (; aim == 0 || aim <= gain * meshError_ || isFirst(); aim = std::sqrt(aim * meshError_)) {
       meshes_ = kept;
       if (meshError_ > 0)
         meshes_.refine(result.errors, aim * std::sqrt(result.energy));
-      else
+      else if (!result.missed)
         meshes_.refineAll();
+      for (size_t i = 0; result.missed && i < 2; ++i)
+        meshes_.halveAt(bodyIndex(description_, result.missed->bodies[i]), result.missed->places[i]);
       if (done_ == 1 && !meshes_.inSpace())
         for (const ContactDescription& contact : description_.contacts)
           meshes_.faceCorners(bodyIndex(description_, contact.nonmortar().body), contact.nonmortar().label,

@@ -15,10 +15,14 @@
 // one of the adjoint, go with the mesh like squares of errors in the energy norm, and take their place: E is
 // the root of the error of J over what is asked of it. A proved one is believed in the first round, too.
 //
+// Where bodies overlap and no contact presses, elements there are cut to half of their size, until it is
+// found or `mostMissed` rounds have not found it.
+//
 // Where a bound is asked for and there is one, it has to be below what is asked for, too: what it is over the
 // estimate, it is taken to be over that of the rounds to come.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -64,6 +68,13 @@ struct AimedError {
   std::vector<Vector> parts;  ///< of the error, by bodies and triangles, nearly
 };
 
+/// Bodies that overlap where no contact holds them apart: meshes are too coarse there to find it.
+struct MissedContact {
+  std::array<std::string, 2> bodies{};
+  std::array<SpacePoint, 2> places{};  ///< on their boundaries as drawn [m]
+  bool all = false;                    ///< no contact presses anywhere: estimates mean nothing
+};
+
 /// What a round has found.
 struct RoundResult {
   std::vector<Vector> errors;  ///< of the meshes, squared, by bodies and triangles [J/m]
@@ -74,7 +85,7 @@ struct RoundResult {
   /// bound is not wanted.
   std::function<std::optional<double>()> bound = {};
   std::optional<AimedError> aim = {};  ///< where refinement aims at a quantity
-  bool overlaps = false;               ///< whether bodies overlap where no contact holds them apart
+  std::optional<MissedContact> missed = {};
 };
 
 class Rounds {
@@ -97,6 +108,8 @@ class Rounds {
   Verdict stop(const std::string& reason);
   [[nodiscard]] bool aims() const { return !description_.accuracy.quantity.empty(); }
   Verdict judgeAim(RoundResult result, double seconds);
+  /// Whether this is the first round that has found contact.
+  [[nodiscard]] bool isFirst() const { return done_ - missed_ == 1; }
   Verdict goOn(const RoundResult& result, double ofMeshes, double seconds);
   [[nodiscard]] double timeShare() const;
   /// \param cost  what a round on the present meshes takes [s]
@@ -112,6 +125,7 @@ class Rounds {
   double least_;        ///< part of what is asked for that the estimate has to be below
   double bounded_ = 0;  ///< estimate when there last was a bound, which was too large
   int done_ = 0;
+  int missed_ = 0;  ///< rounds in which no contact pressed, although bodies overlap
   int shortfalls_ = 0;
   std::string reason_;
 };

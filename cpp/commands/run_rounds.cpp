@@ -53,10 +53,13 @@ AimedError aimOf(const Attempt& round) {
   return {"", value, proved ? enclosure.error(value) : *enclosure.estimate, proved, enclosure.parts};
 }
 
+bool neverTouches(const RunReport& report) {
+  return report.peaks.contactForce.value == 0;
+}
+
 bool overlaps(const Attempt& round) {
   const RunReport& report = round.solved.report;
-  const bool never = report.peaks.contactForce.value == 0;
-  return report.overlap.refused() || (never && !report.overlap.explained);
+  return report.overlap.refused() || (neverTouches(report) && !report.overlap.explained);
 }
 
 }  // namespace
@@ -72,7 +75,8 @@ Rounds::Verdict Run::solveRound(const std::shared_ptr<Attempt>& attempt, std::ve
   const double end = processSeconds();
   const double time = round.solved.report.timeError;
   RoundResult result{errors.errors(), errors.energy(), time, end - begin};
-  result.overlaps = overlaps(round);
+  if (const BodyOverlap& overlap = round.solved.report.overlap; overlaps(round))
+    result.missed = {overlap.bodies, overlap.drawn, neverTouches(round.solved.report)};
   if (!round.facts.aim.empty()) {
     round.solved.accuracy.bound = boundOf(round);
     result.aim = aimOf(round);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace mortier {
 namespace {
@@ -72,7 +73,9 @@ SpaceOutline outlineOf(const TetrahedronMesh& mesh, const SpaceNodes& nodes) {
   for (size_t t = 0; t < outline.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
       sideOf[{outline.triangles[t][k], outline.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
+  outline.around.resize(nodes.places.size());
   for (size_t t = 0; t < outline.triangles.size(); ++t) {
+    for (const int node : outline.triangles[t]) outline.around[node].push_back(static_cast<int>(t));
     std::array<int, 3> neighbours{};
     for (int k = 0; k < 3; ++k) {
       const auto found = sideOf.find({outline.triangles[t][(k + 1) % 3], outline.triangles[t][k]});
@@ -174,7 +177,17 @@ MovedSurface::Nearest MovedSurface::nearest(const SpacePoint& x, const std::vect
       normal = normals_[t] + normals_[outline_->neighbours[t][k]];
   }
   const double distance = std::sqrt(search.least);
-  return {normal.dot(x - foot) < 0 ? -distance : distance, t, foot};
+  return {normal.dot(x - foot) < 0 ? -distance : distance, t, {w[0] > 0, w[1] > 0, w[2] > 0}, foot};
+}
+
+std::vector<int> MovedSurface::around(const Nearest& nearest) const {
+  const int t = nearest.triangle;
+  for (int k = 0; k < 3; ++k) {
+    const bool here = nearest.with[k], next = nearest.with[(k + 1) % 3], last = nearest.with[(k + 2) % 3];
+    if (here && !next && !last) return outline_->around[outline_->triangles[t][k]];
+    if (here && next && !last) return {t, outline_->neighbours[t][k]};
+  }
+  return {t};
 }
 
 std::vector<SpacePointInside> pointsInside(const MovedSurface& one, const MovedSurface& other,
@@ -185,28 +198,31 @@ std::vector<SpacePointInside> pointsInside(const MovedSurface& one, const MovedS
     const MovedSurface& own = of == 0 ? one : other;
     const MovedSurface& across = of == 0 ? other : one;
     std::vector<char> seen(own.places().size(), 0);
-    // Two bodies that end in one plane, as one of symmetry, are in each other there all the same.
-    std::vector<std::vector<SpacePoint>> normals(own.places().size());
-    for (size_t t = 0; t < own.outline().triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (across.box().exteriorDistance(own.corner(static_cast<int>(t), k)) <= rounding)
-          normals[own.outline().triangles[t][k]].push_back(own.normal(static_cast<int>(t)));
-    const auto consider = [&](const SpacePoint& x, int triangle, int node) {
+    const auto consider = [&](const SpacePoint& x, const std::vector<int>& triangles, bool node) {
       if (across.box().exteriorDistance(x) > rounding) return;
       MovedSurface::Nearest nearest = across.nearest(x);
-      if (node >= 0 && std::abs(nearest.distance) <= rounding)
-        nearest = across.nearest(x, normals[node], rounding);
-      if (nearest.triangle < 0) return;
-      if (nearest.distance < -rounding)
-        found.push_back({of, triangle, node >= 0, x, -nearest.distance, nearest.triangle, nearest.foot});
+      if (node && std::abs(nearest.distance) <= rounding) {
+        // Two bodies that end in one plane, as one of symmetry, are in each other there all the same.
+        std::vector<SpacePoint> normals;
+        for (const int t : triangles) normals.push_back(own.normal(t));
+        nearest = across.nearest(x, normals, rounding);
+      }
+      if (nearest.triangle < 0 || nearest.distance >= -rounding) return;
+      SpacePointInside point{of,          triangles.front(), node, x, -nearest.distance, nearest.triangle,
+                             nearest.foot};
+      for (const int s : across.around(nearest))
+        for (const int t : triangles)
+          if (own.normal(t).dot(across.normal(s)) <
+              own.normal(point.triangle).dot(across.normal(point.across)))
+            std::tie(point.triangle, point.across) = std::pair(t, s);
+      found.push_back(point);
     };
     for (size_t t = 0; t < own.outline().triangles.size(); ++t) {
       const auto triangle = static_cast<int>(t);
-      consider(own.middle(triangle), triangle, -1);
-      for (int k = 0; k < 3; ++k) {
-        char& done = seen[own.outline().triangles[t][k]];
-        if (done == 0) consider(own.corner(triangle, k), triangle, own.outline().triangles[t][k]);
-        done = 1;
+      consider(own.middle(triangle), {triangle}, false);
+      for (const int node : own.outline().triangles[t]) {
+        if (seen[node] == 0) consider(own.places()[node], own.outline().around[node], true);
+        seen[node] = 1;
       }
     }
   }

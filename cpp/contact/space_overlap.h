@@ -19,6 +19,7 @@ struct SpaceOutline {
   std::vector<int> labels;                    ///< of each; 0 where it has none
   /// Across side k, from node k of the triangle to the next, the triangle there.
   std::vector<std::array<int, 3>> neighbours;
+  std::vector<std::vector<int>> around;  ///< by nodes of the body, the triangles there
 };
 
 SpaceOutline outlineOf(const TetrahedronMesh& mesh, const SpaceNodes& nodes);
@@ -32,6 +33,7 @@ class MovedSurface {
   struct Nearest {
     double distance = infinity;  ///< negative inside the body [m]
     int triangle = -1;
+    std::array<bool, 3> with{};  ///< which of its nodes the foot lies between
     SpacePoint foot{0, 0, 0};
   };
   /// \param beside  triangles with these normals that are no farther from x than `rounding` do not count
@@ -45,6 +47,8 @@ class MovedSurface {
   [[nodiscard]] double turn(int triangle, int k) const;
   [[nodiscard]] SpacePoint middle(int triangle) const;
   [[nodiscard]] double area(int triangle) const;
+  /// All triangles at a foot.
+  [[nodiscard]] std::vector<int> around(const Nearest& nearest) const;
   [[nodiscard]] const SpacePoint& corner(int triangle, int k) const {
     return places_[outline_->triangles[triangle][k]];
   }
@@ -65,11 +69,11 @@ class MovedSurface {
 /// A node, or the middle of a triangle, of the surface of one of two bodies within the other one.
 struct SpacePointInside {
   int of = 0;              ///< 0 or 1: the body whose surface it is of
-  int triangle = 0;        ///< of that body
-  bool node = false;       ///< the first one of the triangle, or its middle
+  int triangle = 0;        ///< of that body; of several at a node that which faces the other surface
+  bool node = false;       ///< of the triangle, or its middle
   SpacePoint at{0, 0, 0};  ///< [m]
   double depth = 0;        ///< its distance to the surface of the other body [m]
-  int across = 0;          ///< the triangle there
+  int across = 0;          ///< the triangle there, of several that which faces the first surface
   SpacePoint foot{0, 0, 0};
 };
 

@@ -31,7 +31,7 @@ MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding, strain,
                 rotation)
-MORTIER_MEMBERS(BodyOverlap, area, depth, place, time, bodies, labels, explained, shallow, words)
+MORTIER_MEMBERS(BodyOverlap, area, depth, place, drawn, time, bodies, labels, explained, shallow, words)
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)

@@ -203,7 +203,8 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   return text;
 }
 
-std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units, bool contact) {
+std::string logPeaks(const RunReport& report, const StepReport& last, const Units& units, bool contact) {
+  const Peaks& peaks = report.peaks;
   std::string text;
   const auto add = [&](const char* name, const Peak& peak, double end, const std::string& unit) {
     constexpr double same = 1e-9;
@@ -231,7 +232,7 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
         "small "
         "here\n",
         peaks.motion.value, peaks.motion.time, units.time.c_str());
-  if (contact && peaks.contactForce.value == 0)
+  if (contact && peaks.contactForce.value == 0 && report.overlap.depth == 0)
     text +=
         "warning    the bodies never touched: no contact pressed at any step (a motion too small to close "
         "the distance, the wrong direction, or meshes too coarse to see it)\n";
@@ -239,13 +240,12 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
 }
 
 /// Contact that no row has found, and overlaps beside contact that never pressed.
-std::string logOverlap(const RunReport& report) {
+std::string logOverlap(const RunReport& report, int dimension) {
   const BodyOverlap& overlap = report.overlap;
   if (overlap.shallow) return "warning    " + overlap.words + ": the meshes do not resolve it\n";
   if (!(overlap.depth > 0) || !overlap.explained || report.peaks.contactForce.value > 0) return "";
-  return "warning    bodies " + overlap.bodies[0] + " and " + overlap.bodies[1] +
-         formatted(" overlap by %.3g at (%.5g, %.5g", overlap.depth, overlap.place.x(), overlap.place.y()) +
-         ") as drawn, or as a distance that is given or small sliding lets them\n";
+  return "warning    no contact presses, and " + overlap.text(dimension) +
+         " as drawn, or as a distance that is given or small sliding lets them\n";
 }
 
 /// What is known of the error of a quantity.
@@ -329,8 +329,9 @@ std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solv
                    const std::string& place) {
   const RunReport& report = solved.report;
   return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
-         logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) + logOverlap(report) +
-         logPeaks(report.peaks, solved.last, facts.units, !model.interfaces.empty()) +
+         logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
+         logOverlap(report, model.bodies.front().dimension()) +
+         logPeaks(report, solved.last, facts.units, !model.interfaces.empty()) +
          logQuantities(facts, model, solved) + logRanges(facts, report.quantities);
 }
 

@@ -26,8 +26,9 @@ std::string logRoundsHeader(const Model& model) {
 
 std::string logRound(const std::vector<RoundFacts>& rounds) {
   const RoundFacts& last = rounds.back();
-  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.elements,
-                   last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
+  const std::string mesh = std::isfinite(last.mesh) ? formatted("%8.3g %%", 100 * last.mesh) : "   unknown";
+  return formatted("%6zu  %9zu  %8d  %5d  %s  %8.2g %%  %7.3g\n", rounds.size(), last.elements, last.unknowns,
+                   last.steps, mesh.c_str(), 100 * last.time, last.seconds);
 }
 
 std::string logRow(const StepReport& r) {

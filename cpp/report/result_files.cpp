@@ -197,9 +197,10 @@ void keepFacing(const ContactInterface& interface, ContactFields& fields) {
 ContactFields contactFields(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   const ContactPair& pair = of.pair();
-  const Vector gap = of.gap(state.bodies[pair.nonmortar.body].displacement,
-                            state.bodies[pair.mortar.body].displacement, state.time);
+  Vector gap = of.gap(state.bodies[pair.nonmortar.body].displacement,
+                      state.bodies[pair.mortar.body].displacement, state.time);
   const Vector& force = state.contactForce[interface];
+  if (of.yields()) gap -= of.yielded(force);
   const Vector none = Vector::Zero(of.rows());
   ContactFields fields{of.nonmortarNodes(),
                        {},

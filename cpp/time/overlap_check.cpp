@@ -41,6 +41,12 @@ OverlapCheck::OverlapCheck(const Model& model) : model_(model) {
   }
 }
 
+std::string BodyOverlap::text(int dimension) const {
+  return "bodies " + bodies[0] + " and " + bodies[1] +
+         formatted(" overlap by %.3g at (%.5g, %.5g", depth, place.x(), place.y()) +
+         (dimension == 3 ? formatted(", %.5g)", place.z()) : ")");
+}
+
 BodyOverlap OverlapCheck::find(const std::vector<Vector>& u, const std::vector<Vector>& force, double time,
                                double residual) const {
   if (!model_.inParts()) return findHere(u, force, time, residual);
@@ -107,9 +113,6 @@ std::vector<OverlapCheck::Between> OverlapCheck::between(size_t one, size_t othe
           given ? distance[row] - drawn : std::min(0.0, distance[row]) - std::min(0.0, drawn);
       if (asked > 0) contact.asked.emplace_back(node, asked);
     }
-    for (const auto& [node, rows] : interface.nodesBetween())
-      if (force[k][rows[0]] > 0 || force[k][rows[1]] > 0)
-        contact.pressing.push_back(places.of(n, wholeNode(n, node)));
     std::sort(contact.asked.begin(), contact.asked.end());
   }
   return contacts;
@@ -165,6 +168,7 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
     worst.area = region.area;
     worst.depth = sample.depth;
     worst.place = sample.at;
+    worst.drawn = sample.drawn;
     worst.bodies = {body(sample.bodies[0]).name(), body(sample.bodies[1]).name()};
     worst.labels = sample.labels;
     worst.words.clear();
@@ -176,9 +180,7 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
                                    : labelText(of.mesh(), sample.labels[k]);
     };
     worst.words =
-        "bodies " + worst.bodies[0] + " and " + worst.bodies[1] +
-        formatted(" overlap by %.3g at (%.5g, %.5g", sample.depth, sample.at.x(), sample.at.y()) +
-        (dimension == 3 ? formatted(", %.5g", sample.at.z()) : "") + "): " +
+        worst.text(dimension) + ": " +
         (!named ? "no [[contact]] names " + label(0) + " of " + worst.bodies[0] + " and " + label(1) +
                       " of " + worst.bodies[1]
          : presses[i] == 0 ? "no contact presses there"

@@ -41,10 +41,11 @@ class OverlapCheck {
     std::array<int, 2> labels{};
     SpacePoint at{0, 0, 0};
     double depth = 0;
-    double size = 0;       ///< of the larger element there [m]
-    double nonmortar = 0;  ///< of that of the nonmortar side [m]
-    double always = 0;     ///< what explains it anywhere [m]
-    double pressed = 0;    ///< what does so near a row that presses [m]
+    double size = 0;                    ///< of the larger element there [m]
+    double nonmortar = 0;               ///< of that of the nonmortar side [m]
+    double always = 0;                  ///< what explains it anywhere [m]
+    double pressed = 0;                 ///< what does so near a row that presses [m]
+    std::array<SpacePoint, 2> drawn{};  ///< the same points of both bodies as drawn
   };
   struct Region {
     double area = 0;

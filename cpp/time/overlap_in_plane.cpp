@@ -119,6 +119,8 @@ std::vector<OverlapCheck::Region> OverlapCheck::inPlane(size_t one, size_t other
                     std::max(length, lengthAcross)};
 
       const Point place = drawn.at(point.side, point.part);
+      const Point placeAcross = drawnAcross.at(point.across, point.partAcross);
+      sample.drawn = {SpacePoint(place.x(), place.y(), 0), SpacePoint(placeAcross.x(), placeAcross.y(), 0)};
       double asked = 0;
       double nonmortar = 0;  // length of its element
       double inclined = 0;   // its angle to the line across
@@ -147,8 +149,7 @@ std::vector<OverlapCheck::Region> OverlapCheck::inPlane(size_t one, size_t other
       double slide = 0;
       if (!follows) {
         const Point motion = moved.at(point.side, point.part) - place -
-                             movedAcross.at(point.across, point.partAcross) +
-                             drawnAcross.at(point.across, point.partAcross);
+                             movedAcross.at(point.across, point.partAcross) + placeAcross;
         const Point way = drawn.along(point.side, point.part);
         const Point wayAcross = drawnAcross.along(point.across, point.partAcross);
         const double slip = std::abs(motion.dot(way.normalized()));

@@ -67,6 +67,8 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
                   point.depth,
                   std::max(size, sizeAcross)};
     const SpacePoint motion = motionAt(drawn, moved, point.triangle, point.at);
+    const SpacePoint motionAcross = motionAt(drawnAcross, movedAcross, point.across, point.foot);
+    sample.drawn = {SpacePoint(point.at - motion), SpacePoint(point.foot - motionAcross)};
     double asked = 0;
     double nonmortar = 0;
     double inclined = 0;
@@ -86,15 +88,16 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
         if (at != contact.asked.end() && at->first == node) asked = std::max(asked, at->second);
       }
     }
-    if (!named) asked = std::max(asked, -drawnAcross.nearest(point.at - motion).distance);
+    if (!named) asked = std::max(asked, -drawnAcross.nearest(sample.drawn[0]).distance);
     const double chords = (point.node ? 0 : size * smoothTurn(drawn, point.triangle, true) / 4) +
                           sizeAcross * smoothTurn(drawnAcross, point.across, true) / 4;
-    const SpacePoint relative = motion - motionAt(drawnAcross, movedAcross, point.across, point.foot);
+    const SpacePoint relative = motion - motionAcross;
     const SpacePoint& n = drawn.normal(point.triangle);
     const double slip = (relative - n.dot(relative) * n).norm();
     const double turn = std::max(angle(n, -movedAcross.normal(point.across)),
                                  angle(drawnAcross.normal(point.across), -moved.normal(point.triangle)));
-    const double slide = slip > sample.size ? infinity : slip * std::min(1.0, turn);
+    // Surfaces that do not face each other have no rows whose directions could be off.
+    const double slide = turn > sharpTurn ? 0 : slip > sample.size ? infinity : slip * turn;
     sample.always =
         places.residual + places.rounding + asked + overlap::chords * chords + overlap::sliding * slide;
     const double curvature = smoothTurn(drawn, point.triangle, false) / size +

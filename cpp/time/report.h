@@ -67,6 +67,7 @@ struct BodyOverlap {
   double area = 0;                      ///< of the region; in space of the surface in the other body [m^2]
   double depth = 0;                     ///< largest distance to the other boundary there [m]
   SpacePoint place{0, 0, 0};            ///< of it [m]
+  std::array<SpacePoint, 2> drawn{};    ///< the points of both boundaries as drawn [m]
   double time = 0;                      ///< [s]
   std::array<std::string, 2> bodies{};  ///< the one whose boundary is in the other first
   std::array<int, 2> labels{};          ///< there; 0 where it has none
@@ -77,6 +78,8 @@ struct BodyOverlap {
   std::string words;  ///< one line where it is not explained
 
   [[nodiscard]] bool refused() const { return !explained && !shallow; }
+  /// "bodies a and b overlap by 0.1 at (0, 0)"
+  [[nodiscard]] std::string text(int dimension) const;
 };
 
 struct RunReport {

@@ -62,12 +62,19 @@ TEST(SpaceOverlap, ofABallOnAPlaneIsThatOfItsLowestVertex) {
   for (const SpacePointInside& point : points) EXPECT_EQ(block.outline.labels[point.across], 3);
 }
 
-// A quarter of it: the lowest vertex is on an edge of both bodies, in two planes of symmetry.
+// A quarter of it: the lowest vertex is on an edge of both bodies, in two planes of symmetry. Of the
+// triangles there, those that face each other count.
 TEST(SpaceOverlap, ofAQuarterOfABallIsThatOfTheBall) {
   const RoundBody round{true, {0, 0, 1}, 1, 1, {1, 1, -1}, {6, 1}};
   const Outlined ball(roundMesh(round), 1, {0, 0, -0.001});
   const Outlined block(cuboidMesh({{0, 0, -1}, {1, 1, 0}, {5, 5, 2}}), 1);
-  EXPECT_NEAR(depthOf(pointsInside(ball.surface, block.surface, rounding)), 0.001, 1e-12);
+  const std::vector<SpacePointInside> points = pointsInside(ball.surface, block.surface, rounding);
+  EXPECT_NEAR(depthOf(points), 0.001, 1e-12);
+  for (const SpacePointInside& point : points) {
+    const bool ofBall = point.of == 0;
+    EXPECT_LE(ball.surface.normal(ofBall ? point.triangle : point.across).z(), -0.9);
+    EXPECT_EQ(block.surface.normal(ofBall ? point.across : point.triangle), SpacePoint(0, 0, 1));
+  }
 }
 
 // Distances have their sign on all sides of edges and vertices, reentrant ones too.
