@@ -77,7 +77,8 @@ def solve(row, settings, folder):
     if done.returncode != 0:
         raise Ended(done.stderr)
     run = results.read_mortier(folder)
-    return run, done.stderr + json.dumps(run.summary.get("several_solutions", ""))
+    doubts = (run.summary.get("accuracy") or {}).get("not_reliable", "")
+    return run, done.stderr + json.dumps([doubts, run.summary.get("several_solutions", "")])
 
 
 def call(row):

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "commands/command_line.h"
+#include "contact/smooth_part.h"
 #include "mesh/read.h"
 #include "plan/loads.h"
 #include "scene/build.h"
@@ -101,6 +102,30 @@ std::string sliding(const SceneDescription& scene) {
   return "macro sliding yes //  contact follows the bodies\nint[int] slidesFar = [" + list + "];\n";
 }
 
+/// Of every interface, whether its conditions are stabilised; none where they are nowhere.
+std::string stabilised(const SceneDescription& scene) {
+  const std::string list =
+      ofContacts(scene, [](const auto& contact) { return contact.stabilised ? "1" : "0"; });
+  if (list.find('1') == std::string::npos) return "";
+  return "macro anyStabilised yes //  conditions yield\nint[int] stabilised = [" + list + "];\n";
+}
+
+/// Of every interface, whether the mortar line is made of several straight sides; none where no one is.
+std::string polygons(const Model& model) {
+  std::string list;
+  for (const ContactInterface& interface : model.interfaces) {
+    const ContactSide& mortar = interface.pair().mortar;
+    const std::vector<SmoothPart> parts =
+        smoothParts(boundaryLine(model.bodies[mortar.body].mesh(), mortar.label), Kinks::ofStraightElements);
+    const bool straight =
+        std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.straight; });
+    list += (list.empty() ? "" : ", ") + std::string(straight && parts.size() > 1 ? "1" : "0");
+  }
+  if (list.find('1') == std::string::npos) return "";
+  return "macro straightSides yes //  no circle is behind the mortar line\nint[int] polygons = [" + list +
+         "];\n";
+}
+
 /// One word where all interfaces have the same.
 std::string variants(const SceneDescription& scene) {
   const CouplingKind first = scene.contacts.front().variant;
@@ -162,9 +187,9 @@ std::string script(const SceneDescription& scene, const Model& model,
         << ", " << mortar.label << ']';
   }
   out << "];\n"
-      << friction(scene) << sliding(scene) << (scene.inSpace() ? "" : distances(scene, model))
-      << variants(scene) << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time
-      << "]\n"
+      << friction(scene) << sliding(scene) << stabilised(scene)
+      << (scene.inSpace() ? "" : distances(scene, model) + polygons(model)) << variants(scene)
+      << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time << "]\n"
       << stepEnds(times)
       << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))
       << ";  // backward Euler, " << (times.empty() ? "equal steps" : "steps of their own lengths") << "\n\n";

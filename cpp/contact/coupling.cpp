@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact/end_rows.h"
 #include "contact/row_functions.h"
 #include "mesh/triangle_mesh.h"
 
@@ -28,20 +29,22 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
         entries.emplace_back(row, 2 * nodes[k] + c, value);
 }
 
-/// Gauss's rule of four points on every segment: calls at(segment, rows, s,
-/// values of the row functions, weight).
+/// Lobatto's rule of seven points on every segment: distances of circles are roots, no polynomials, and the
+/// least distance of straight sides is at the ends of pieces, however these are cut. Calls
+/// at(segment, rows, s, values of the row functions, weight).
 template <class At>
-void atGaussPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
-  constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                         0.8611363115940526};
-  constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                          0.3478548451374538};
+void atLobattoPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
+  constexpr std::array<double, 7> places{
+      -1, -0.830223896278567, -0.468848793470714, 0, 0.468848793470714, 0.830223896278567, 1};
+  constexpr std::array<double, 7> weights{1.0 / 21,    0.276826047361566, 0.431745381209863,
+                                          256.0 / 525, 0.431745381209863, 0.276826047361566,
+                                          1.0 / 21};
   for (const Segment& segment : refinement.segments()) {
     const EdgeNodes row = rows.at(segment.nonmortar);
     if (row.maxCoeff() < 0) continue;
     const double half = (segment.end - segment.begin) / 2;
     for (size_t k = 0; k < places.size(); ++k) {
-      const double s = segment.begin + (1 + places[k]) * half;
+      const double s = k + 1 < places.size() ? segment.begin + (1 + places[k]) * half : segment.end;
       at(segment, row, s, rows.functions(segment.nonmortar, row, s), weights[k] * half);
     }
   }
@@ -54,8 +57,9 @@ struct Integrals {
   Triplets M;
   Triplets N;  ///< of the shape functions themselves
   Vector distance;
-  Vector least;  ///< distance at a Gauss point of the row [m]
+  Vector least;  ///< distance at a point of the row [m]
   Vector lengths;
+  Vector moments;  ///< of the row functions about s = 0
 };
 
 /// \param own  directions of contact at the nodes of the rows, or empty: no motion is subtracted
@@ -66,7 +70,8 @@ Integrals integrate(const CommonRefinement& refinement, const DistanceAt& distan
   result.distance = Vector::Zero(rows.count());
   result.least = Vector::Constant(rows.count(), std::numeric_limits<double>::infinity());
   result.lengths = Vector::Zero(rows.count());
-  atGaussPoints(
+  result.moments = Vector::Zero(rows.count());
+  atLobattoPoints(
       refinement, rows,
       [&](const Segment& segment, const EdgeNodes& row, double s, const EdgeValues& chi, double weight) {
         const FacingPair facing = refinement.pairAt(segment, s);
@@ -90,6 +95,7 @@ Integrals integrate(const CommonRefinement& refinement, const DistanceAt& distan
           for (Eigen::Index k = 0; k < nodes.size(); ++k)
             result.N.emplace_back(row[i], nodes[k], w * facing.phi[k]);
           result.distance[row[i]] += w * g0;
+          result.moments[row[i]] += w * s;
           result.least[row[i]] = std::min(result.least[row[i]], g0);
         }
       });
@@ -174,8 +180,8 @@ Sparse projected(const Sparse& Phi, const Sparse& B) {
 
 /// The projection of a distance is below a convex one by h^2/12 times its second derivative, and bodies that
 /// touch would press each other. It is moved up, by the same number at all rows, until none is below the
-/// least distance where its function is not 0; but by no more than twice the way to the distance at the
-/// node, so that kinks and steps move the rows beside them alone.
+/// least distance on its elements; but by no more than twice the way to the distance at the node, so that
+/// kinks and steps move the rows beside them alone.
 Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
   const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
   return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
@@ -231,14 +237,50 @@ void putPointRow(const CommonRefinement& refinement, const CornerContact& corner
   coupling.distance[row] = kept[row] * coupling.distance[row] + weight * distance(e, corner.s, facing);
 }
 
+/// \param moments  of the row functions about s = 0
+/// \param least  distance at a point of a row
+void stabilise(const CommonRefinement& refinement, const Stabilisation& by, const Vector& moments,
+               const Vector& least, Coupling& coupling) {
+  const auto n = static_cast<Eigen::Index>(coupling.nodes.size());
+  std::vector<double> mirrors;
+  std::vector<char> goesOn = by.merged;
+  for (size_t i = 0; i < goesOn.size(); ++i) {
+    if (by.symmetric[i] == 0) continue;
+    goesOn[i] = 1;
+    mirrors.push_back(refinement.part().s[i]);
+  }
+  coupling.yielding = pressureCompliance(refinement, coupling.nodes, coupling.mass * Vector::Ones(n),
+                                         coupling.lengths, mirrors, by.mortarCompliance);
+  if (!by.applied) {
+    coupling.yielding.S.setZero();
+    return;
+  }
+  const Vector places = Factor(coupling.mass).solve(moments);
+  coupling.ends = endRows(refinement, coupling.nodes, places, goesOn);
+  const Sparse& T = coupling.ends;
+  if (T.nonZeros() == n) return;
+  coupling.C1 = (T * coupling.C1).pruned();
+  coupling.C2 = (T * coupling.C2).pruned();
+  coupling.N = (T * coupling.N).pruned();
+  // What is extrapolated of a convex distance may be below the least one: bodies that touch would press.
+  const Vector moved = T * coupling.distance;
+  for (Eigen::Index row = 0; row < n; ++row)
+    if (moved[row] < coupling.distance[row] && !drawnStraight(refinement))
+      coupling.distance[row] = std::max(moved[row], std::min(least[row], coupling.distance[row]));
+    else
+      coupling.distance[row] = moved[row];
+  coupling.yielding.S = T * coupling.yielding.S * T.transpose();
+  coupling.lengths = forcesAtEnds(T, coupling.lengths);
+}
+
 }  // namespace
 
 Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const DistanceAt& distance,
-                const std::vector<char>& merged, bool axisymmetric, double stiffness,
-                const std::vector<char>& only) {
+                const std::vector<char>& merged, bool axisymmetric, const std::vector<char>& only,
+                const Stabilisation& stabilisation) {
   const SmoothPart& part = refinement.part();
   const MortarLine& mortar = refinement.mortar();
-  const RowFunctions rows(kind, refinement, merged, stiffness, only);
+  const RowFunctions rows(kind, refinement, merged, only);
   const Eigen::Index n = rows.count();
   std::vector<FacingNode> atRows;  // what their nodes face
   std::vector<Point> own;          // directions there
@@ -255,7 +297,7 @@ Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const Dis
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
   };
-  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}, Vector(), {}};
+  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}, Vector(), {}, {}};
   Integrals integrals = integrate(refinement, distance, rows, own, axisymmetric);
   std::vector<PointRow> atCorners = pointRows(refinement, rows);
   for (auto& [corner, row] : atCorners) {
@@ -273,7 +315,6 @@ Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const Dis
   result.nodes = rows.nodes();
   result.distance = distances;
   result.lengths = integrals.lengths;
-  result.between = rows.between();
   result.mass = assembled(n, n, integrals.mass);
   result.C1 = matrix(part, ownMotion);
   Triplets atNodes;  // what is given holds at the nodes
@@ -306,6 +347,8 @@ Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const Dis
     result.mass = Sparse(w.asDiagonal());
   }
   for (const auto& [corner, row] : atCorners) putPointRow(refinement, corner, row, distance, result);
+  if (kind != CouplingKind::interpolation)
+    stabilise(refinement, stabilisation, integrals.moments, integrals.least, result);
   return result;
 }
 

@@ -8,7 +8,6 @@
 //   interpolation  (C u)_i = j(s_i)
 //   mortar         C u = Phi^-1 int chi j ds,   Phi_ij = int chi_i chi_j ds:   the L2 projection of the jump
 //   weighted       C u = w^-1 int chi j ds,   w_i = int chi_i ds:          its means
-//   coarsened      the same with fewer chi_i: hat functions of some of the vertices
 //
 // so that the nodal forces of the pressure sum pi_i chi_i are Phi pi, or w pi; w is Phi lumped. In the
 // field's words C u = Phi^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and
@@ -18,10 +17,8 @@
 //
 // Where the nonmortar side is finer than the mortar side and less compliant (h the distances of nodes, E the
 // stiffness: h1/E1 < h2/E2), neither trace follows pressures that alternate from node to node: the inf-sup
-// constant of the nodal pressures is lost, and they alternate. With `coarsened` a vertex there has a row only
-// if it is the nearest one of a node of the mortar trace, and hat functions span the others: pressures are
-// those of the mortar trace but for half an element (docs/theory.md; MorteX: Akula et al. 2019).
-// The ends keep their rows and stand for the mortar nodes within half a mortar element.
+// constant of the nodal pressures is lost, and they alternate. Stabilised conditions yield there as a finer
+// mortar mesh would (pressure_compliance.h), and those at ends act at the end (end_rows.h).
 //
 // The distance g0 is taken by the same rows. With mortar it is moved up where the projection of a convex
 // distance would be below the least one where a row function is not 0 (coupling.cpp).
@@ -29,7 +26,7 @@
 // A corner or an end of a line that touches the other one (CornerContact) is one point: the row of its vertex
 // becomes, in the part of its weight, the jump at that point.
 //
-// Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
+// Integrals are Lobatto's on the common refinement, exact where the part is straight (quadrature on the
 // elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
 // side ends inside the element, or the other vertex is merged into it), its chi is extended by 1: constants
 // are still reproduced, and Phi stays well conditioned however small the piece.
@@ -42,7 +39,7 @@
 // latter is dense, and its entries decay by a factor of about four a node with the distance from the node
 // that is faced.
 //
-// Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and
+// Whatever the rule, each of its points adds a pair of opposite forces along the line through x1 and x2, and
 // shape functions reproduce both places: every row balances in force and moment (docs/theory.md).
 //
 // Example (tests/unit/coupling_test.cpp): nonmortar nodes 0, 1/2, 1 and mortar nodes 0, 1/3, 1 give
@@ -51,22 +48,16 @@
 // (Hild 2000; Bernardi, Maday, Patera 1994; curves: Yang, Laursen, Meng 2005.)
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "base/sparse.h"
 #include "base/types.h"
 #include "contact/common_refinement.h"
+#include "contact/pressure_compliance.h"
 
 namespace mortier {
 
-enum class CouplingKind { interpolation, mortar, weighted, coarsened };
-
-/// A trace node between two rows whose functions its pressure interpolates.
-struct NodeBetween {
-  int node = 0;
-  std::array<int, 2> rows{};
-};
+enum class CouplingKind { interpolation, mortar, weighted };
 
 struct Coupling {
   std::vector<int> nodes;            ///< trace nodes of the part with a row, along the line (ElementLine)
@@ -76,12 +67,21 @@ struct Coupling {
   Vector distance;                   ///< g0, by rows [m]
   Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
   Vector lengths;                    ///< int chi ds, by rows [m]
-  std::vector<NodeBetween> between;  ///< with `coarsened`: the other trace nodes
+  PressureCompliance yielding;       ///< of `mortar` and `weighted`
+  Eigen::SparseMatrix<double> ends;  ///< T of end_rows.h where stabilised, else empty
+};
+
+/// What the rows of `mortar` and `weighted` get so that pressures do not alternate and bodies rest on ends.
+struct Stabilisation {
+  bool applied = false;
+  double mortarCompliance = 0;  ///< 1/E2 of pressure_compliance.h [1/Pa]
+  std::vector<char> merged;     ///< vertices of the part without a row of their own
+  std::vector<char> symmetric;  ///< ends of the part at which the line goes on as its mirror image
 };
 
 /// Whether rows are weighted means, with a mass that is diagonal.
 inline bool hasMeans(CouplingKind kind) {
-  return kind == CouplingKind::weighted || kind == CouplingKind::coarsened;
+  return kind == CouplingKind::weighted;
 }
 
 /// The degree of the row functions on a line whose trace has a degree.
@@ -94,11 +94,11 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 /// where the part faces the mortar line.
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
 /// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
-/// \param stiffness  of the nonmortar over that of the mortar body, for `coarsened`
 /// \param only  the vertices that may have a row, whether or not they face the mortar line themselves; empty:
-/// those that do (with `coarsened` some of them)
+/// those that do
 Coupling couple(CouplingKind kind, const CommonRefinement& refinement,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
-                bool axisymmetric = false, double stiffness = 1, const std::vector<char>& only = {});
+                bool axisymmetric = false, const std::vector<char>& only = {},
+                const Stabilisation& stabilisation = {});
 
 }  // namespace mortier

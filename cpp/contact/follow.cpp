@@ -15,8 +15,11 @@ struct ContactInterface::Lines {
   std::vector<std::vector<char>> merged;  ///< by nonmortar parts and vertices
   std::vector<std::map<int, int>> rowOf;  ///< by nonmortar parts and node numbers
   double stiffness = 1;
-  double shorter = 0;  ///< of the two lines [m]
-  double apart = 0;    ///< distance of a node that faces nothing: the length of its line [m]
+  bool stabilised = false;
+  double mortarCompliance = 0;
+  std::vector<std::vector<char>> symmetric;  ///< by nonmortar parts and vertices
+  double shorter = 0;                        ///< of the two lines [m]
+  double apart = 0;  ///< distance of a node that faces nothing: the length of its line [m]
 };
 
 namespace {
@@ -52,8 +55,10 @@ void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLi
   lines->nonmortar = nonmortar;
   lines->mortar = mortar;
   lines->nonmortarParts = shared(partsFacing(nonmortar, mortar));
-  lines->mortarParts = shared(smoothParts(mortar));
+  lines->mortarParts = shared(smoothParts(mortar, Kinks::ofStraightElements));
   lines->stiffness = options.stiffness;
+  lines->stabilised = options.stabilised;
+  lines->mortarCompliance = options.mortarCompliance;
   lines->apart = lengthOf(lines->nonmortarParts);
   lines->shorter = std::min(lines->apart, lengthOf(lines->mortarParts));
   for (const auto& drawn : lines->nonmortarParts) {
@@ -62,6 +67,7 @@ void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLi
     const std::vector<char>& merged =
         lines->merged.emplace_back(merges ? mergedNodes(CommonRefinement(part), pair_.coupling, options)
                                           : std::vector<char>(part.nodes.size(), 0));
+    lines->symmetric.push_back(symmetricEnds(CommonRefinement(part), options));
     heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
     std::map<int, int>& rowOf = lines->rowOf.emplace_back();
     const auto add = [&](int node) {
@@ -95,7 +101,6 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
   const std::vector<ContactDirections> directionsBefore = std::exchange(directions_, {});
   faces_.assign(n, 0);
   normals_.resize(n);
-  between_.clear();
   penetration_ = {};
   lengths_ = Vector::Zero(n);
   distanceHere_ = Vector::Constant(n, lines.apart);
@@ -117,8 +122,8 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
       const auto row = rowOf.find(part.nodes[i]);
       only.push_back(row != rowOf.end() && facedBefore[row->second] != 0 ? 1 : 0);
     }
-    const Coupling coupling =
-        couple(pair_.coupling, facing, distanceOfCurves, merged, axisymmetric_, lines.stiffness, only);
+    const Coupling coupling = couple(pair_.coupling, facing, distanceOfCurves, merged, axisymmetric_, only,
+                                     {lines.stabilised, lines.mortarCompliance, merged, lines.symmetric[k]});
     std::vector<int> rows;
     for (const int node : coupling.nodes) rows.push_back(rowOf.at(part.number(node)));
     entries.add(coupling, facing, rows);
@@ -127,13 +132,14 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
       distanceHere_[rows[i]] = coupling.distance[static_cast<Eigen::Index>(i)];
       lengths_[rows[i]] = coupling.lengths[static_cast<Eigen::Index>(i)];
     }
-    for (const auto& [node, ends] : coupling.between)
-      between_.push_back({part.number(node), {rows[ends[0]], rows[ends[1]]}});
     overlap_ += facing.length() / lines.shorter;
     penetration_.add(facing, distanceOfCurves, axisymmetric_);
   }
   for (int row = 0; row < n; ++row)  // no force has a pressure there
-    if (faces_[row] == 0) entries.mass.emplace_back(row, row, 1);
+    if (faces_[row] == 0) {
+      entries.mass.emplace_back(row, row, 1);
+      entries.ends.emplace_back(row, row, 1);
+    }
   setRows(entries);
   if (motion != nullptr) {
     C2_ = ConstraintRows(C2_ * motion->change);

@@ -97,6 +97,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
       friction_(options.friction),
       distanceIsGiven_(static_cast<bool>(options.gap)),
       axisymmetric_(options.axisymmetric) {
+  stabilised_ = options.stabilised;
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
@@ -165,11 +166,14 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
       return gap;
     };
     Coupling coupling =
-        couple(pair_.coupling, refinement, distance, merged, axisymmetric_, options.stiffness);
-    if (options.gap && !hasMeans(pair_.coupling))  // what is given holds at the nodes
-      for (size_t i = 0; i < coupling.nodes.size(); ++i)
-        coupling.distance[static_cast<Eigen::Index>(i)] =
-            options.gap(nonmortarMesh.nodes.places[part.number(coupling.nodes[i])]);
+        couple(pair_.coupling, refinement, distance, merged, axisymmetric_, {},
+               {options.stabilised, options.mortarCompliance, merged, symmetricEnds(refinement, options)});
+    if (options.gap) {  // it holds at the nodes
+      Vector given(part.traceNodes());
+      for (int j = 0; j < part.traceNodes(); ++j)
+        given[j] = options.gap(nonmortarMesh.nodes.places[part.number(j)]);
+      coupling.distance = coupling.N * given;
+    }
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
     std::vector<int> rowOf(coupling.nodes.size());
     std::iota(rowOf.begin(), rowOf.end(), firstRow);
@@ -178,8 +182,6 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
       nonmortarNodes_.push_back(part.number(node));
       normals_.push_back(refinement.directionAt(node));
     }
-    for (const auto& [node, rows] : coupling.between)
-      between_.push_back({part.number(node), {firstRow + rows[0], firstRow + rows[1]}});
     overlap_ += refinement.length();
     distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
     if (!options.gap && options.initial != InitialGap::close)
@@ -215,6 +217,17 @@ void ContactInterface::Entries::add(const Coupling& coupling, const CommonRefine
   forEachEntry(coupling.mass, [&](int row, int column, double value) {
     mass.emplace_back(rowOf[row], rowOf[column], value);
   });
+  const auto& [S, meansOf, spacing] = coupling.yielding;
+  forEachEntry(S, [&, &to = compliance](int row, int column, double value) {
+    to.emplace_back(rowOf[row], rowOf[column], value);
+  });
+  forEachEntry(meansOf, [&, &to = means](int row, int column, double value) {
+    to.emplace_back(rowOf[row], rowOf[column], value);
+  });
+  forEachEntry(coupling.ends, [&, &to = ends](int row, int column, double value) {
+    to.emplace_back(rowOf[row], rowOf[column], value);
+  });
+  for (Eigen::Index i = 0; i < spacing.size(); ++i) spacings.emplace_back(rowOf[i], spacing[i]);
 }
 
 void ContactInterface::setRows(const Entries& entries) {
@@ -222,6 +235,14 @@ void ContactInterface::setRows(const Entries& entries) {
   C1_ = assembled<ConstraintRows>(n, C1_.cols(), entries.nonmortar);
   C2_ = assembled<ConstraintRows>(n, C2_.cols(), entries.mortar);
   mass_ = assembled(n, n, entries.mass);
+  compliance_ = assembled(n, n, entries.compliance);
+  means_ = assembled(n, n, entries.means);
+  ends_ = assembled(n, n, entries.ends);
+  if (ends_.nonZeros() <= n) ends_ = {};
+  weights_ = mass_ * Vector::Ones(n);
+  if (ends_.size() > 0) weights_ = forcesAtEnds(ends_, weights_);
+  mortarSpacing_ = Vector::Zero(n);
+  for (const auto& [row, spacing] : entries.spacings) mortarSpacing_[row] = spacing;
   if (!friction_.any()) return;
   T1_ = turned(C1_);
   T2_ = turned(C2_);
@@ -240,7 +261,6 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   ContactInterface result = *this;
   const auto& [nonmortar, mortar] = numbers;
   for (int& node : result.nonmortarNodes_) node = nonmortar[node];
-  for (NodeBetween& between : result.between_) between.node = nonmortar[between.node];
   for (int& node : result.mortarNodes_) node = mortar[node];
   for (auto& [node, place] : result.gapNodes_) node = nonmortar[node];
   columns(result.C1_, 2, nonmortar, count[0]);
@@ -276,7 +296,7 @@ void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vecto
 
 Vector ContactInterface::frictionBound(const Vector& p) const {
   // The weight of a quadratic node on the axis is zero but for rounding.
-  return (friction_.coefficient * p + friction_.limit * (mass_ * Vector::Ones(p.size()))).cwiseMax(0);
+  return (friction_.coefficient * p + friction_.limit * weights()).cwiseMax(0);
 }
 
 void ContactInterface::subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const {
@@ -284,8 +304,27 @@ void ContactInterface::subtractFriction(const Vector& t, Vector& fNonmortar, Vec
   fMortar -= T2_.transpose() * t;
 }
 
+Vector ContactInterface::nodalPressure(const Vector& p) const {
+  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(mass_).solve(
+      ends_.size() > 0 ? Vector(ends_.transpose() * p) : p);
+}
+
 Vector ContactInterface::contactPressure(const Vector& p) const {
-  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(mass_).solve(p);
+  return stabilised_ && means_.nonZeros() > 0 ? Vector(means_ * nodalPressure(p)) : nodalPressure(p);
+}
+
+double ContactInterface::pressureRoughness(const Vector& p) const {
+  if (means_.nonZeros() == 0 || !(p.maxCoeff() > 0)) return 0;
+  const Vector pressure = nodalPressure(p);
+  const Vector off = means_ * pressure - pressure;
+  std::vector<char> inside(p.size(), 1);
+  forEachEntry(means_, [&](int row, int column, double) {
+    if (!(p[column] > 0)) inside[row] = 0;
+  });
+  double most = 0;
+  for (Eigen::Index i = 0; i < p.size(); ++i)
+    if (inside[i] != 0 && p[i] > 0) most = std::max(most, std::abs(off[i]));
+  return most / pressure.maxCoeff();
 }
 
 std::vector<GapSquare> ContactInterface::gapSquares(const Vector& p, const Vector& uNonmortar,
@@ -293,8 +332,6 @@ std::vector<GapSquare> ContactInterface::gapSquares(const Vector& p, const Vecto
   std::vector<int> pressed;
   for (int row = 0; row < rows(); ++row)
     if (p[row] > 0) pressed.push_back(nonmortarNodes_[row]);
-  for (const auto& [node, rows] : between_)
-    if (p[rows[0]] > 0 || p[rows[1]] > 0) pressed.push_back(node);
   std::sort(pressed.begin(), pressed.end());
   const auto presses = [&](int vertex) { return std::binary_search(pressed.begin(), pressed.end(), vertex); };
   return penetration_.squares(uNonmortar, uMortar, presses, nodalGap(t));

@@ -67,8 +67,11 @@ struct InterfaceOptions {
   std::function<bool(int, const Point&)> nonmortarHeld = {};
   std::function<bool(int, const Point&)> mortarHeld = {};
   Friction friction = {};
-  bool axisymmetric = false;   ///< whether the bodies turn about the axis x = 0: forces are in [N] then
-  double stiffness = 1;        ///< of the nonmortar over that of the mortar body (coupling `coarsened`)
+  bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
+  double stiffness = 1;       ///< of the nonmortar over that of the mortar body: where rows follow
+  /// Of the mortar body in a half-plane, 1/E or (1 - nu^2)/E; 0 where it is held [1/Pa].
+  double mortarCompliance = 0;
+  bool stabilised = false;     ///< whether conditions are (Stabilisation)
   bool follows = false;        ///< whether rows follow the bodies (follow()); not with a `gap`
   SpaceDatum gapInSpace = {};  ///< in place of `gap` and `gapInTime`
   bool gapMoves = false;       ///< whether that changes in time
@@ -130,8 +133,7 @@ class ContactInterface {
   /// Makes the rows those of the bodies moved by u_k, and g0 such that C u - g0 is the gap linearised there:
   ///   g = C (u - u_k) - d(u_k).
   /// \param keepRows  only nodes that have a row now have one, and corners of lines keep their weights: at
-  /// the ends of lines, and with `coarsened`, the set of rows is a discontinuous function of the
-  /// displacements
+  /// the ends of lines the set of rows is a discontinuous function of the displacements
   void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false,
               const MortarMotion* mortar = nullptr);
   /// d(u_k), the distance of the bodies where rows have followed them; by rows [m]
@@ -147,8 +149,6 @@ class ContactInterface {
   /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
   /// corner comes twice.
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
-  /// Nodes of the nonmortar line between two rows (coupling `coarsened`), by their numbers.
-  [[nodiscard]] const std::vector<NodeBetween>& nodesBetween() const { return between_; }
   /// Numbers of the nodes of the mortar line, the vertices first.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
   /// Direction of contact at the node of each row, out of the nonmortar body.
@@ -182,9 +182,17 @@ class ContactInterface {
   [[nodiscard]] Vector frictionBound(const Vector& p) const;
   /// f -= T' t on both bodies' nodal forces [N/m]; t is what the nonmortar body exerts along the line.
   void subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const;
-  /// Mass of the row functions, rows x rows [m], or over the whole surface [m^2]: nodal
-  /// forces are the mass times the contact pressure.
+  /// Mass of the row functions, rows x rows [m], or over the whole surface [m^2]: nodal forces are the mass
+  /// times the contact pressure, where rows are not those of ends (contact/end_rows.h).
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
+  /// S, by which the conditions yield to nodal forces: g = C u - S p - g0 (contact/pressure_compliance.h).
+  [[nodiscard]] const Eigen::SparseMatrix<double>& compliance() const { return compliance_; }
+  [[nodiscard]] bool stabilised() const { return stabilised_; }
+  [[nodiscard]] bool yields() const { return compliance_.nonZeros() > 0; }
+  void stopYielding() { compliance_.setZero(); }
+  /// Distance of the mortar nodes at the rows; none where the mortar side is held, or in space [m].
+  [[nodiscard]] const Vector& mortarSpacing() const { return mortarSpacing_; }
+  [[nodiscard]] Vector yielded(const Vector& p) const { return compliance_ * p; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
   [[nodiscard]] int heldEnds() const { return heldEnds_; }
   /// By how much the lines may be off the curves behind them where these are not known and the distance is
@@ -197,9 +205,9 @@ class ContactInterface {
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
   /// Of the line, by rows: integrals of the row functions [m].
-  [[nodiscard]] Vector lengths() const {
-    return axisymmetric_ || follows() ? lengths_ : Vector(mass_ * Vector::Ones(rows()));
-  }
+  [[nodiscard]] Vector lengths() const { return axisymmetric_ || follows() ? lengths_ : weights(); }
+  /// Nodal forces of a pressure of 1 [m], or over the whole surface [m^2].
+  [[nodiscard]] const Vector& weights() const { return weights_; }
 
   /// C u; displacements by dofs of the two bodies [m].
   [[nodiscard]] Vector jump(const Vector& uNonmortar, const Vector& uMortar) const {
@@ -209,8 +217,12 @@ class ContactInterface {
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
-  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
+  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m], where the mortar side is
+  /// coarser means over its elements.
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
+  /// The part of the largest nodal pressure by which nodal pressures change within elements of the mortar
+  /// side beside what is linear there; ends of contact do not count [-].
+  [[nodiscard]] double pressureRoughness(const Vector& p) const;
   /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2];
   /// in space by the midpoint rule on the common refinement [m^3].
   [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
@@ -238,6 +250,7 @@ class ContactInterface {
 
  private:
   ContactInterface() = default;
+  [[nodiscard]] Vector nodalPressure(const Vector& p) const;
   /// Takes distances that are rounding for zero, and refuses those that the options do not allow.
   void settleDistance(InitialGap initial, double shorter, const std::string& names);
   /// What is given at a time at the nodes of the nonmortar line, by node; empty where it does not change.
@@ -259,7 +272,6 @@ class ContactInterface {
   std::vector<int> nonmortarLine_;
   ContactPair pair_;
   std::vector<int> nonmortarNodes_;
-  std::vector<NodeBetween> between_;
   std::vector<int> mortarNodes_;
   std::vector<Point> normals_;
   std::vector<SpacePoint> spaceNormals_;
@@ -269,6 +281,12 @@ class ContactInterface {
   ConstraintRows T1_;
   ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
+  Eigen::SparseMatrix<double> compliance_;
+  Eigen::SparseMatrix<double> means_;
+  Vector weights_;
+  bool stabilised_ = false;
+  Eigen::SparseMatrix<double> ends_;  ///< T of end_rows.h; empty where it is the identity
+  Vector mortarSpacing_;
   Vector distance_;
   bool distanceIsGiven_ = false;
   Datum given_;

@@ -35,6 +35,19 @@ std::vector<char> mergedNodes(const CommonRefinement& refinement, CouplingKind k
   return merged;
 }
 
+std::vector<char> symmetricEnds(const CommonRefinement& refinement, const InterfaceOptions& options) {
+  const SmoothPart& part = refinement.part();
+  std::vector<char> symmetric(part.nodes.size(), 0);
+  constexpr double onTheAxis = 1e-12;  // as where normals are kept along it (smooth_part.cpp)
+  for (const int end : {0, part.elements()}) {
+    const Point n = refinement.directionAt(end);
+    const bool onAxis = options.axisymmetric && std::abs(part.points[end].x()) <= onTheAxis * part.length();
+    const bool held = options.nonmortarHeld && options.nonmortarHeld(part.nodes[end], Point(-n.y(), n.x()));
+    symmetric[end] = held || onAxis ? 1 : 0;
+  }
+  return symmetric;
+}
+
 void mergeCorners(const CommonRefinement& refinement, std::vector<int>& corners, std::vector<char>& merged) {
   for (const CornerContact& corner : refinement.corners()) {
     if (!corner.ofPart || !(corner.weight > atCorner) || merged[corner.vertex] != 0) continue;

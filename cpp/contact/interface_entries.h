@@ -13,7 +13,11 @@ namespace mortier {
 struct ContactInterface::Entries {
   Triplets nonmortar, mortar;  ///< of C1 and C2, by dofs of their meshes
   Triplets mass;
-  Triplets given;  ///< of N
+  Triplets compliance;  ///< S
+  Triplets means;
+  Triplets ends;
+  std::vector<std::pair<int, double>> spacings;  ///< of the mortar nodes, by rows
+  Triplets given;                                ///< of N
 
   /// \param rowOf  by rows of the coupling
   void add(const Coupling& coupling, const CommonRefinement& refinement, const std::vector<int>& rowOf);
@@ -35,6 +39,10 @@ std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine
 /// The ends of the nonmortar line that are merged into their neighbours, as flags by the nodes of the part.
 std::vector<char> mergedNodes(const CommonRefinement& refinement, CouplingKind kind,
                               const InterfaceOptions& options);
+
+/// The ends of the nonmortar line that are held along it, on an axis of symmetry, as flags by the nodes of
+/// the part.
+std::vector<char> symmetricEnds(const CommonRefinement& refinement, const InterfaceOptions& options);
 
 /// Where two parts meet at a corner that faces a point of the other line (CornerContact) one of them has the
 /// row there: merges the vertices of a part that another one has, and adds the others.

@@ -1,7 +1,6 @@
 // Which trace nodes of the nonmortar line have a row, and the functions chi of the rows (coupling.h).
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "contact/coupling.h"
@@ -16,7 +15,7 @@ class RowFunctions {
  public:
   /// Arguments as in couple(); the refinement must outlive it.
   RowFunctions(CouplingKind kind, const CommonRefinement& refinement, const std::vector<char>& merged,
-               double stiffness, const std::vector<char>& only = {});
+               const std::vector<char>& only = {});
 
   /// Trace nodes with a row, along the line.
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
@@ -25,18 +24,12 @@ class RowFunctions {
   [[nodiscard]] EdgeNodes at(int element) const;
   /// Values of these functions at an abscissa of the element.
   [[nodiscard]] EdgeValues functions(int element, const EdgeNodes& rows, double s) const;
-  /// Nodes without a row between two that have one.
-  [[nodiscard]] std::vector<NodeBetween> between() const;
 
  private:
-  void findSpans();
-  [[nodiscard]] EdgeNodes spanOf(int element) const;
-
   const SmoothPart& part_;
   int degree_;
   std::vector<int> ofNode_;  ///< row of a trace node; -1: none
   std::vector<int> nodes_;
-  std::vector<std::array<int, 2>> spans_;  ///< by elements: vertices whose hat functions they carry
 };
 
 }  // namespace mortier

@@ -75,8 +75,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
                                  options.nonmortarHeld);
   const ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label, options.mortarHeld);
   const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
-  if (pair.coupling == CouplingKind::coarsened ||
-      (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1))
+  if (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1)
     throw InputError(names + ": in space variant = \"weighted\" is known, and for linear displacements " +
                      "\"mortar\" and \"interpolation\"");
   ContactInterface result;
@@ -260,11 +259,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   if (pair.coupling == CouplingKind::weighted) {
     const Vector inverse = result.lengths_.cwiseInverse();  // products copy an expression for each column
     result.mass_ = Eigen::SparseMatrix<double>(result.lengths_.asDiagonal());
+    result.weights_ = result.lengths_;
     result.C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
     result.C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
     result.distance_ = inverse.cwiseProduct(distance);
   } else {
     result.mass_ = assembled(rows, rows, mass);
+    result.weights_ = result.mass_ * Vector::Ones(rows);
     Triplets own, opposite;
     for (Eigen::Index row = 0; row < rows; ++row) {
       const SpacePoint& n = result.spaceNormals_[row];

@@ -153,12 +153,6 @@ void compareMeshes(const LintInput& input, const ContactDescription& contact, co
     faults.add("nonmortar-coarser", contact.nonmortar().where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
                    " times as long as those of the mortar side");
-  if (contact.variant == CouplingKind::coarsened) return;
-  if (const auto found = alternation(scene, contact, input.meshes))
-    faults.add("pressure-alternates", contact.where,
-               "edges of " + name(two) + " are " + digits(found->edges) +
-                   " times as long as those of the nonmortar side, whose body is " +
-                   (found->stiffness == 1 ? "as stiff" : digits(found->stiffness, 3) + " times as stiff"));
 }
 
 /// Of random sheared blocks with mu up to 1 none has several solutions, of those above a few in a thousand.

@@ -65,8 +65,7 @@ void dropConsequences(Faults& faults) {
       {"data", ofLoads},
       {"contact-penetration", {"bodies-overlap"}},
       {"contact-missing", {"body-alone"}},
-      {"bodies-overlap", {"body-alone"}},
-      {"contact-size-ratio", {"pressure-alternates"}}};
+      {"bodies-overlap", {"body-alone"}}};
   for (const auto& [cause, others] : consequences)
     if (faults.has(cause))
       for (const std::string& id : others) faults.drop(id);

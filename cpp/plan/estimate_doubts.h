@@ -18,6 +18,11 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
 /// infinite there, so its error does not fall.
 std::vector<std::string> pointForceDoubts(const Model& model, const State& state);
 
+/// Contacts whose pressures the meshes do not resolve in a state, a line each: those that end within a side
+/// after a few cells, and sides that overlap between their nodes without a force.
+/// \param largestForce  of contact in the run, beside which forces are rounding [N/m]
+std::vector<std::string> contactDoubts(const Model& model, const State& state, double largestForce);
+
 /// Whether every nonmortar node lies on a mortar node, and the mortar nodes between them on nonmortar ones.
 bool meshesMatch(const ContactInterface& interface);
 

@@ -40,6 +40,8 @@ Model buildModel(ResolvedScene& scene) {
   scene.spaceMeshes.clear();
   if (description.inSpace()) requireMemory(memoryNeed(model, description.solver), false);
   for (const ContactDescription& contact : description.contacts) addContact(description, contact, model);
+  if (solvesSparse(model, description.solver))  // of such long lines with C alone
+    for (ContactInterface& interface : model.interfaces) interface.stopYielding();
   return model;
 }
 
@@ -190,6 +192,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
   options.stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
+  options.mortarCompliance = surfaceCompliance(scene, contact.mortar(), meshes);
+  options.stabilised = contact.stabilised;
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;

@@ -168,12 +168,13 @@ nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the conta
 mortar | | | `{ body = "name", label = 3 }` | the other side
 sides | | | `[{ body = "a", label = 1 }, { body = "b", label = 3 }]` | the two sides in any order, in place of
   `nonmortar` and `mortar`: the program chooses (below)
-variant | | `"mortar"`, with `degree = 2` `"weighted"`; `"coarsened"` where the nonmortar side is
-  finer and stiffer ([below](#contact-lines)) | `"interpolation"`, `"mortar"`, `"weighted"`,
-  `"coarsened"` | what must not become negative, as a gap and as a force: the values of the gap at the nodes,
-  its projection, its means weighted with the hat functions of the nonmortar vertices, whose pressure is
-  nowhere negative, or the same with fewer vertices where the nonmortar side is finer and stiffer, whose
-  pressure does not alternate there ([theory](theory.md#contact-one-set-of-rows)); each with `degree` 1 or 2
+variant | | `"mortar"`, with `degree = 2` `"weighted"` | `"interpolation"`, `"mortar"`, `"weighted"` | what
+  must not become negative, as a gap and as a force: the values of the gap at the nodes, its projection, or
+  its means weighted with the hat functions of the nonmortar vertices, whose pressure is nowhere negative
+  ([theory](theory.md#contact-one-set-of-rows)); each with `degree` 1 or 2
+stabilised | | true where `variant` is left out, in the plane, without `accuracy.bound` | true, false |
+  conditions yield where the mortar side is the coarser one, so that pressures do not alternate from node to
+  node ([below](#contact-lines)); not with `"interpolation"`
 swap | | false | true, false | exchanges the sides, given or chosen: a short way to try the other one
 initial | | `"as-meshed"` | `"as-meshed"`, `"close"`, `"reject"` | the distance of the bodies as drawn is kept
   (a penetration of up to a hundredth of the shorter line is a negative distance); or set to zero; or a scene

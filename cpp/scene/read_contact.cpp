@@ -90,6 +90,19 @@ void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
   refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
 }
 
+/// Conditions are stabilised where the scene leaves the choice of rows to the program.
+void readStabilised(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
+  const bool other =
+      contact.variant == CouplingKind::interpolation || scene.accuracy.bound || scene.inSpace();
+  contact.stabilised =
+      table.has("stabilised") ? table.boolean("stabilised") : !table.has("variant") && !other;
+  if (!contact.stabilised || !other) return;
+  table.reject("stabilised", contact.variant == CouplingKind::interpolation
+                                 ? "false with variant = \"interpolation\""
+                             : scene.inSpace() ? "false in space"
+                                               : "false beside accuracy.bound");
+}
+
 }  // namespace
 
 ContactDescription readContact(const Node& node, const SceneDescription& scene) {
@@ -99,9 +112,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   readSides(table, scene, contact);
   const auto variant = scene.degree == 1 && !scene.inSpace() ? CouplingKind::mortar : CouplingKind::weighted;
   contact.variant = table.choice<CouplingKind>("variant", variant);
-  contact.variantGiven = table.has("variant");
-  if (contact.variant == CouplingKind::coarsened && scene.accuracy.bound)
-    table.reject("variant", "another one beside accuracy.bound");
+  readStabilised(table, scene, contact);
   contact.initial = table.choice<InitialGap>("initial");
   contact.gap = table.datum("gap");
   if (contact.gap && contact.gap->inTime && scene.accuracy.bound)

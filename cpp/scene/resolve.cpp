@@ -182,7 +182,6 @@ ResolvedScene resolveScene(SceneDescription scene) {
   findPlaces(description, resolved.meshes);
   const std::vector<const TriangleMesh*> meshes = pointersTo(resolved.meshes);
   decideSides(description, meshes);
-  decideVariants(description, meshes);
   decideVolumes(description, meshes);
   return resolved;
 }
@@ -209,7 +208,6 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
   };
   forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);
   decideSides(scene, meshes);
-  decideVariants(scene, meshes);
   decideVolumes(scene, meshes);
 }
 

@@ -64,26 +64,16 @@ void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh
 double stiffnessRatio(const SceneDescription& scene, const SideDescription& one, const SideDescription& other,
                       const std::vector<const TriangleMesh*>& meshes);
 
+/// What the body of a side yields by under a load on a half-plane, (1 - nu^2)/E, or 1/E in plane stress, of
+/// the stiffest region at the side; 0 where its normal motion is prescribed [1/Pa]. \pre its mesh is there
+double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
+                         const std::vector<const TriangleMesh*>& meshes);
+
 /// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing
 /// (nullptr) or a label that the mesh lacks stay as they are.
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& meshes);
-
-// Which rows a contact has where the scene does not say it (`variant`).
-
-/// A nonmortar side so much finer and stiffer than the mortar side that nodal pressures may alternate where
-/// all its nodes have a row.
-struct Alternation {
-  double edges = 1;      ///< length of the mortar edges over that of the nonmortar edges [-]
-  double stiffness = 1;  ///< stiffnessRatio of the nonmortar to the mortar side [-]
-};
-std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
-                                       const std::vector<const TriangleMesh*>& meshes);
-
-/// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
-/// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
-void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 // Which displacements of a mesh the conditions of a body prescribe along x and y.
 

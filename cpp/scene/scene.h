@@ -150,9 +150,9 @@ struct ContactDescription {
   /// Which of them is nonmortar; empty, then the first, until the meshes decide it (scene/resolve.h).
   std::optional<int> nonmortarSide;
   bool otherSide = false;  ///< where meshes decide it: the one that they would not choose
-  std::string choice;      ///< why side and variant are those, where the program has chosen
+  std::string choice;      ///< why it is that one, where the program has chosen
   CouplingKind variant = CouplingKind::mortar;
-  bool variantGiven = true;  ///< otherwise it is left to the program (scene/resolve.h)
+  bool stabilised = false;  ///< contact/pressure_compliance.h
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< [m]
   Friction friction;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/digits.h"
@@ -25,30 +26,6 @@ std::optional<double> meanEdge(const SceneDescription& scene, const SideDescript
   return length / static_cast<double>(edges.size());
 }
 
-/// The length of the nearest mortar edge over that of a nonmortar edge, which two fifths of the nonmortar
-/// edges exceed: a graded line has about as many edges in its fine part, where contact is expected.
-/// Both sides have edges.
-double edgeRatio(const TriangleMesh& nonmortar, int label, const TriangleMesh& mortar, int mortarLabel) {
-  constexpr size_t enough = 1000;
-  const auto edges = edgesOn(nonmortar, label);
-  const auto others = edgesOn(mortar, mortarLabel);
-  std::vector<double> ratios;
-  for (size_t e = 0; e < edges.size(); e += 1 + edges.size() / enough) {
-    const Point& from = nonmortar.vertices[edges[e][0]];
-    const Point& to = nonmortar.vertices[edges[e][1]];
-    const auto distance = [&](const std::array<int, 2>& other) {
-      return (mortar.vertices[other[0]] + mortar.vertices[other[1]] - from - to).squaredNorm();
-    };
-    const auto& [a, b] =
-        *std::min_element(others.begin(), others.end(),
-                          [&](const auto& one, const auto& two) { return distance(one) < distance(two); });
-    ratios.push_back((mortar.vertices[b] - mortar.vertices[a]).norm() / (to - from).norm());
-  }
-  const auto exceeded = ratios.begin() + static_cast<std::ptrdiff_t>(3 * ratios.size() / 5);
-  std::nth_element(ratios.begin(), exceeded, ratios.end());
-  return *exceeded;
-}
-
 /// Whether the normal motion of all vertices of a side is prescribed: a wall, whatever its modulus.
 bool isWall(const SceneDescription& scene, const SideDescription& side,
             const std::vector<const TriangleMesh*>& meshes) {
@@ -66,6 +43,20 @@ bool isWall(const SceneDescription& scene, const SideDescription& side,
   });
 }
 
+/// Of the triangles that have an edge on a label.
+std::set<int> regionsBeside(const TriangleMesh& mesh, int label) {
+  std::set<std::array<int, 2>> edges;
+  for (const auto& [a, b] : edgesOn(mesh, label)) edges.insert({std::min(a, b), std::max(a, b)});
+  std::set<int> regions;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k];
+      const int b = mesh.triangles[t][(k + 1) % 3];
+      if (edges.contains({std::min(a, b), std::max(a, b)})) regions.insert(mesh.regions[t]);
+    }
+  return regions;
+}
+
 double young(const SceneDescription& scene, const SideDescription& side) {
   return scene.bodies[bodyIndex(scene, side.body)].material.elasticity.young;
 }
@@ -77,6 +68,26 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
   if (isWall(scene, other, meshes)) return 0;
   if (isWall(scene, one, meshes)) return std::numeric_limits<double>::infinity();
   return young(scene, one) / young(scene, other);
+}
+
+double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
+                         const std::vector<const TriangleMesh*>& meshes) {
+  if (isWall(scene, side, meshes)) return 0;
+  const size_t b = bodyIndex(scene, side.body);
+  const BodyDescription& body = scene.bodies[b];
+  const auto compliance = [&](const MaterialDescription& material) {
+    const double poisson = scene.plane == Plane::stress ? 0 : material.elasticity.poisson;
+    return (1 - poisson * poisson) / material.elasticity.young;
+  };
+  if (body.regions.empty()) return compliance(body.material);
+  double least = std::numeric_limits<double>::infinity();
+  for (const int region : regionsBeside(*meshes[b], side.label)) {
+    const auto own = std::find_if(
+        body.regions.begin(), body.regions.end(),
+        [&](const RegionDescription& each) { return each.label == region && each.material.has_value(); });
+    least = std::min(least, compliance(own == body.regions.end() ? body.material : *own->material));
+  }
+  return least;
 }
 
 namespace {
@@ -131,42 +142,6 @@ void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& me
     if (contact.nonmortarSide) continue;
     const auto& [side1, side2] = contact.sides;
     decideSide(contact, edgeOf(side1), edgeOf(side2), young(scene, side1) / young(scene, side2));
-  }
-}
-
-std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
-                                       const std::vector<const TriangleMesh*>& meshes) {
-  // Nodal pressures are off by more than 2 % beyond one of these pairs, at degree 2 beyond the first two
-  // (docs/measurements.md): the least ratio of nodes, and of nodes times stiffness.
-  constexpr double limits[][2] = {{0.9, 100}, {1.1, 4}, {1.55, 1.25}};
-  const auto edgesOf = [&](const SideDescription& side) {
-    return meanEdge(scene, side, meshes).has_value() ? meshes[bodyIndex(scene, side.body)] : nullptr;
-  };
-  const TriangleMesh* nonmortar = edgesOf(contact.nonmortar());
-  const TriangleMesh* mortar = edgesOf(contact.mortar());
-  if (nonmortar == nullptr || mortar == nullptr || contact.variant == CouplingKind::interpolation)
-    return std::nullopt;
-  const double edges = edgeRatio(*nonmortar, contact.nonmortar().label, *mortar, contact.mortar().label);
-  const double nodes = edges / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
-  const double stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
-  const auto beyond = [&](const auto& limit) { return nodes > limit[0] && nodes * stiffness > limit[1]; };
-  if (beyond(limits[0]) || beyond(limits[1]) || (scene.degree == 1 && beyond(limits[2])))
-    return Alternation{edges, stiffness};
-  return std::nullopt;
-}
-
-void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
-  if (scene.accuracy.bound || scene.accuracy.asked() > 0) return;
-  for (ContactDescription& contact : scene.contacts) {
-    if (contact.variantGiven) continue;
-    const auto found = alternation(scene, contact, meshes);
-    if (!found) continue;
-    contact.variantGiven = true;
-    contact.variant = CouplingKind::coarsened;
-    contact.choice += (contact.choice.empty() ? "" : ", ") + std::string("fewer nodes as its edges are ") +
-                      digits(found->edges) + " times as short";
-    if (found->stiffness != 1)
-      contact.choice += " and its body is " + digits(found->stiffness) + " times as stiff";
   }
 }
 

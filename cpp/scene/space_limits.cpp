@@ -21,14 +21,10 @@ void requireKnown(const ContactDescription& contact, int degree) {
   const std::string where = contact.where + ": contact";
   if (contact.friction.any()) refuse(where, "friction");
   if (contact.sliding == SlidingKind::finite) refuse(where, "sliding = \"finite\"");
-  const bool coarsened = contact.variant == CouplingKind::coarsened;
-  if (!coarsened && (degree == 1 || contact.variant == CouplingKind::weighted)) return;
-  const std::string others = degree == 1 ? "\"weighted\", \"mortar\" or \"interpolation\"" : "\"weighted\"";
-  throw InputError(where + ": variant = \"" + word(contact.variant) + "\", expected " + others +
-                   (coarsened
-                        ? ": vertices left out leave a line of longer edges, but no triangles on a surface"
-                        : " with degree = 2: in space the integral of a quadratic vertex function over a "
-                          "triangle is zero"));
+  if (degree == 1 || contact.variant == CouplingKind::weighted) return;
+  throw InputError(where + ": variant = \"" + word(contact.variant) +
+                   "\", expected \"weighted\" with degree = 2: in space the integral of a quadratic vertex "
+                   "function over a triangle is zero");
 }
 
 void requireKnown(const QuantityDescription& quantity) {

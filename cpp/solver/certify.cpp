@@ -130,7 +130,8 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       }
       along += t.size();
     }
-    const Vector g = interface.gap(u[b1], u[b2], step.data.time);
+    Vector g = interface.gap(u[b1], u[b2], step.data.time);
+    if (interface.yields()) g -= interface.yielded(p);
     for (Eigen::Index i = 0; i < g.size(); ++i) {
       const double off = moved(std::abs(g[i]), firstRow_[k] + i);
       if (iterate.active[k][i] != 0)

@@ -100,6 +100,7 @@ std::vector<Vector> gaps(const Model& model, const std::vector<Vector>& gap0, co
     // The parts apart: the first no longer changes where the iteration ends.
     result.emplace_back((gap0[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
     if (!iterate.distanceChange.empty()) result.back() -= iterate.distanceChange[k];
+    if (interface.yields()) result.back() -= interface.yielded(iterate.contactForce[k]);
   }
   return result;
 }
@@ -138,9 +139,12 @@ std::vector<Vector> frictionWork(const State& state0, const Iterate& solution,
 
 std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& solution) {
   std::vector<Vector> result = gaps(model, gap0, solution);
-  for (size_t k = 0; k < result.size(); ++k)
+  for (size_t k = 0; k < result.size(); ++k) {
     for (Eigen::Index i = 0; i < result[k].size(); ++i)
       if (solution.active[k][i] != 0) result[k][i] = 0;
+    const ContactInterface& interface = model.interfaces[k];
+    if (interface.yields()) result[k] += interface.yielded(solution.contactForce[k]);
+  }
   return result;
 }
 

@@ -47,6 +47,7 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
     const ContactPair& pair = model_.interfaces[k].pair();
     Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body], state0.time);
     if (!solution.distanceChange.empty()) gap -= solution.distanceChange[k];
+    if (model_.interfaces[k].yields()) gap -= model_.interfaces[k].yielded(solution.contactForce[k]);
     const double size = model_.bodies[pair.nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();

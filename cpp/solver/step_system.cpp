@@ -195,6 +195,12 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
       contact.symmetric = contact.symmetric && system_->model_.bodies[b].material().symmetricTangent();
       bodies[b].addCompliance(contact.W);
     }
+    for (size_t k = 0; k < system_->model_.interfaces.size(); ++k) {
+      const int first = system_->firstRow_[k];
+      forEachEntry(system_->model_.interfaces[k].compliance(), [&](int row, int column, double value) {
+        contact.W(first + row, first + column) += value;
+      });
+    }
   }
   return keepFactors();
 }

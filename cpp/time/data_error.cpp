@@ -185,8 +185,6 @@ void SpaceErrorEstimator::addGivenGaps(size_t k, const State& state,
     double& here = open[contact.nonmortarNodes()[row]];
     here = std::min(here, state.contactForce[k][row] > 0 ? 0 : -gap[row]);
   }
-  for (const auto& [node, rows] : contact.nodesBetween())
-    open[node] = std::min(open[contact.nonmortarNodes()[rows[0]]], open[contact.nonmortarNodes()[rows[1]]]);
   Compliance facing;  // the softest of the other side: it is what yields
   for (const int triangle : line(mortar.body, mortar.label).triangles) {
     const Compliance here = complianceOf(state, mortar.body, triangle);

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "mesh/boundary_line.h"
@@ -13,16 +12,13 @@
 namespace mortier {
 namespace {
 
-/// Nodes of a line in their order, those in the middle of its elements included, but none between two rows.
-std::vector<std::pair<int, Point>> nodesAlong(const BoundaryLine& line, const ContactInterface& interface) {
+/// Nodes of a line in their order, those in the middle of its elements included.
+std::vector<std::pair<int, Point>> nodesAlong(const BoundaryLine& line) {
   std::vector<std::pair<int, Point>> nodes;
   for (size_t i = 0; i < line.nodes.size(); ++i) {
     nodes.emplace_back(line.nodes[i], line.points[i]);
     if (i < line.middleNodes.size()) nodes.emplace_back(line.middleNodes[i], line.middlePoints[i]);
   }
-  std::set<int> between;
-  for (const NodeBetween& each : interface.nodesBetween()) between.insert(each.node);
-  std::erase_if(nodes, [&](const auto& node) { return between.contains(node.first); });
   return nodes;
 }
 
@@ -72,8 +68,7 @@ std::vector<Vector> meanPressureShares(const Model& model, int body, int label, 
     if (isSide(interface, body, label)) {
       const ContactSide& side = interface.pair().nonmortar;
       const Body& nonmortar = model.bodies[side.body];
-      const auto nodes =
-          nodesAlong(boundaryLine(nonmortar.mesh(), nonmortar.elementNodes(), side.label), interface);
+      const auto nodes = nodesAlong(boundaryLine(nonmortar.mesh(), nonmortar.elementNodes(), side.label));
       for (size_t i = 0; i + 1 < nodes.size(); ++i) {
         const Point& a = nodes[i].second;
         const Point& b = nodes[i + 1].second;

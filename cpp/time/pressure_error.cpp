@@ -17,13 +17,11 @@ std::map<int, double> nodalTractions(const ContactInterface& contact, int degree
   if (rowDegree(contact.pair().coupling, degree) > 1) {
     values = contact.contactPressure(forces);
   } else {
-    const Vector areas = contact.mass() * Vector::Ones(contact.rows());
+    const Vector& areas = contact.weights();
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = areas[i] > 0 ? forces[i] / areas[i] : 0;
   }
   std::map<int, double> tractions;
   for (int row = 0; row < contact.rows(); ++row) tractions[contact.nonmortarNodes()[row]] = values[row];
-  for (const auto& [node, rows] : contact.nodesBetween())
-    tractions[node] = (values[rows[0]] + values[rows[1]]) / 2;
   return tractions;
 }
 

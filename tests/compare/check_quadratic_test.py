@@ -14,9 +14,8 @@ OF_FIRST_MESHES = {"mesh-coarse", "contact-one-edge", "contact-size-ratio", "non
                    "datum-between-nodes"}
 OF_EQUAL_STEPS = {"few-steps-across-yield", "yields-at-once", "viscosity-small", "kink-between-steps",
                   "load-between-steps", "output-every", "output-large"}
-# Not with quadratic displacements: no triangle is locked, an edge between held ones has a free middle, and
-# the rows of `weighted`, at vertices, are no closer than the nodes of the other side.
-OF_LINEAR_TRIANGLES = {"locked-triangle", "load-on-support", "flow-locks", "pressure-alternates"}
+# Not with quadratic displacements: no triangle is locked, an edge between held ones has a free middle.
+OF_LINEAR_TRIANGLES = {"locked-triangle", "load-on-support", "flow-locks"}
 # The scene says instead that these are refused beside an accuracy.
 REFUSED = {"interpolation-unmatched", "contact-meets-support", "lands-on-yield", "scheme-rings"}
 

@@ -126,7 +126,7 @@ def disc_falls(program):
              'ux = "3.89746*max(t - 0.2, 0)/0.8"\nfy = "-1.58984*min(5*t, 1)"\n'
              'rotation = "-0.920076*max(t - 0.2, 0)/0.8"\n')
     for name in "ab":
-        text += contact((name, 3), ("tool", None), variant="coarsened", friction=0, sliding="finite")
+        text += contact((name, 3), ("tool", None), variant="weighted", friction=0, sliding="finite")
     return fall("disc", solve(program, text + time(20)), r"body tool\b.*translation along")
 
 

@@ -34,7 +34,7 @@ class Scene:
         self.rng = rng = random.Random(seed)
         self.kind = rng.choice(["tool on body", "body on tool", "body on body"])
         self.degree = rng.choice([1, 2])
-        self.variant = rng.choice([None, "mortar", "weighted", "interpolation", "coarsened"])
+        self.variant = rng.choice([None, "mortar", "weighted", "interpolation", None])
         self.finite = self.kind == "body on tool" and rng.random() < 0.6
         self.angle = rng.choice([-1, 1]) * math.radians(rng.uniform(2, 55))
         self.young = 10 ** rng.uniform(0, 6), 10 ** rng.uniform(0, 6)

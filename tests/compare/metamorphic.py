@@ -46,7 +46,7 @@ class Scene:
         self.rng = rng = random.Random(seed)
         self.kind = rng.choice(["tool on block", "tool on block", "round on line", "body on block"])
         self.degree = rng.choice([1, 1, 2])
-        self.variant = rng.choice([None, "mortar", "weighted", "interpolation", "coarsened"])
+        self.variant = rng.choice([None, "mortar", "weighted", "interpolation", None])
         self.sliding = rng.choice(["allow", "finite"])
         self.friction = rng.choice([0, 0, rng.uniform(0.05, 0.8)])
         self.plane = rng.choice(["stress", "strain"])

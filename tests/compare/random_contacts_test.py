@@ -28,10 +28,10 @@ class RandomContacts(unittest.TestCase):
         self.examine(pressed_tools, 15)
 
     def test_light_contact_and_tipping(self):
-        self.examine(light_contacts, 11, (4, 6, 8), "default rows tip early (4, 8) and miss light contact (6)")
+        self.examine(light_contacts, 12)
 
     def test_pressures_are_those_of_hertz(self):
-        self.examine(disc_pressures, 12, (2, 4, 6, 7, 8), "pressures alternate, and the run does not say so")
+        self.examine(disc_pressures, 12)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 
 
+def variant_of(rng):
+    variant = rng.choice(["weighted", "weighted", "mortar", "", "interpolation"])
+    return f'variant = "{variant}"' if variant else ""
+
+
 def scene(seed):
     rng = random.Random(seed)
     young = 1e3 * 10 ** rng.uniform(-1, 1)
@@ -77,7 +82,7 @@ boundary = [ {{ label = {held}, ux = "{way}", {press} }} ]
 [contact]
 nonmortar = {sides[0]}
 mortar = {sides[1]}
-variant = "{rng.choice(['weighted', 'weighted', 'mortar', 'coarsened', 'interpolation'])}"
+{variant_of(rng)}
 friction = {mu:.6g}
 sliding = "finite"
 [time]

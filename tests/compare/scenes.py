@@ -69,6 +69,7 @@ tx = "exp(-y^2)*min(t, 0.3)"
 nonmortar = { body = "lower", label = 3 }
 mortar = { body = "upper", label = 1 }
 variant = "interpolation"
+stabilised = false
 swap = true
 gap = "1e-4*x^2"
 [time]

@@ -121,8 +121,8 @@ class UserScene(WideScene):
 
     def pair(self, first, second, *more):
         rng = self.rng
-        variant = rng.choice(["", "", "mortar", "weighted", "interpolation", "coarsened"])
-        if self.accuracy and variant in ("interpolation", "coarsened"):
+        variant = rng.choice(["", "", "mortar", "weighted", "interpolation", ""])
+        if self.accuracy and variant == "interpolation":
             variant = ""
         sides = [f'{{ body = "{name}", label = {label} }}' for name, label in (first, second)]
         self.text += ["[[contact]]", *more, *([f'variant = "{variant}"'] if variant else [])]

@@ -18,8 +18,7 @@ FORBIDDEN = {
 # id -> warnings that say nothing beside it
 CONSEQUENCES = {"missing-label": {"no-load", "yields-at-once", "large-strain"},
                 "data": {"yields-at-once", "large-strain", "large-displacement"},
-                "contact-penetration": {"bodies-overlap"}, "contact-missing": {"body-alone"},
-                "contact-size-ratio": {"pressure-alternates"}}
+                "contact-penetration": {"bodies-overlap"}, "contact-missing": {"body-alone"}}
 PRESS = """\
 units = "mm, N, MPa"
 degree = 2

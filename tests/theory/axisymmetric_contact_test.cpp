@@ -12,12 +12,11 @@ namespace mortier::axisymmetric_contact_test {
 using namespace scenes;
 
 constexpr double reproduced = 1e-12;
-constexpr CouplingKind projections[] = {CouplingKind::mortar, CouplingKind::weighted,
-                                        CouplingKind::coarsened};
 
 void addAxisymmetric(Model& model, const ContactSide& nonmortar, const ContactSide& mortar,
-                     CouplingKind kind) {
+                     const Rows& kind) {
   InterfaceOptions options;
+  kind.set(options, 0.01);
   options.axisymmetric = true;
   addInterface(model, {nonmortar, mortar, kind}, options);
 }
@@ -40,7 +39,7 @@ struct Pair {
 /// All sides under the same pressure but those that are held: stress -p I, whatever the line of contact.
 void expectHydrostatic(const Pair& pair, double& worst) {
   constexpr double pressure = 3;
-  for (const CouplingKind kind : projections)
+  for (const Rows& kind : meanRows)
     for (const int degree : {1, 2})
       for (const int nonmortar : {0, 1}) {
         Model model;
@@ -112,7 +111,7 @@ TEST(AxisymmetricContact, patchOfRingsInEachOther) {
 // Discs on each other under a uniaxial stress widen as they like: they slip.
 TEST(AxisymmetricContact, patchUnderUniaxialStress) {
   double worst = 0;
-  for (const CouplingKind kind : projections)
+  for (const Rows& kind : meanRows)
     for (const int nonmortar : {0, 1})
       for (const double inner : {0.0, 1.0}) {
         Model model;

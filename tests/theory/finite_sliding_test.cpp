@@ -22,12 +22,13 @@ TriangleMesh turned(TriangleMesh mesh, double angle) {
   return mesh;
 }
 
-Model following(Body upper, Body lower, CouplingKind coupling, int nonmortarBody, double friction,
+Model following(Body upper, Body lower, const Rows& coupling, int nonmortarBody, double friction,
                 double stiffness) {
   InterfaceOptions options;
   options.follows = true;
   options.friction = {friction, 0};
   options.stiffness = stiffness;
+  coupling.set(options, 0.01);
   return contactModel(std::move(upper), std::move(lower), coupling, nonmortarBody, options);
 }
 
@@ -38,7 +39,7 @@ TEST(FiniteSliding, patchIsExactWhereverItMoves) {
   constexpr double angle = 0.4;
   const Point n(-std::sin(angle), std::cos(angle));
   const Point way = 10 * Point(n.y(), -n.x()) + 3 * n;
-  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted, CouplingKind::coarsened})
+  for (const Rows& coupling : meanRows)
     for (const int degree : {1, 2})
       for (const int nonmortar : {upperBody, lowerBody}) {
         const auto at = [](double first, double then) {  // pressed at once, then moved

@@ -40,9 +40,10 @@ std::vector<Vector> forces(const Model& model, double value) {
 }
 
 TEST(OverlapCheck, acceptsContactThatHoldsBodiesApart) {
-  for (const CouplingKind coupling :
-       {CouplingKind::mortar, CouplingKind::weighted, CouplingKind::coarsened}) {
-    const Result result = run(pressed(0.02, coupling), 1, 2);
+  for (const Rows& coupling : meanRows) {
+    InterfaceOptions options;
+    coupling.set(options, 0.01);
+    const Result result = run(pressed(0.02, coupling, options), 1, 2);
     EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
     EXPECT_TRUE(result.report.overlap.explained);
     EXPECT_LE(result.report.overlap.depth, 1e-8);

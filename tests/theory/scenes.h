@@ -27,6 +27,28 @@ inline const char* nameOf(CouplingKind coupling) {
   return coupling == CouplingKind::mortar ? "mortar" : "interpolation";
 }
 
+/// Rows of contact, as in the literature or stabilised.
+struct Rows {
+  CouplingKind kind = CouplingKind::mortar;
+  bool stabilised = false;
+
+  Rows(CouplingKind of, bool stabilise = false) : kind(of), stabilised(stabilise) {}
+  operator CouplingKind() const { return kind; }
+  /// \param compliance  of the mortar body [1/Pa]
+  void set(InterfaceOptions& options, double compliance) const {
+    options.stabilised = stabilised;
+    options.mortarCompliance = compliance;
+  }
+};
+inline const Rows meanRows[] = {CouplingKind::mortar,
+                                CouplingKind::weighted,
+                                {CouplingKind::mortar, true},
+                                {CouplingKind::weighted, true}};
+inline std::string wordOf(const Rows& rows) {
+  return std::string(rows.stabilised ? "stabilised " : "") +
+         (rows.kind == CouplingKind::weighted ? "weighted" : nameOf(rows.kind));
+}
+
 /// The note's material: E = 3e11 Pa, nu = 0.3, lambda = 10 Pa s, sigma_Y = 1 Pa.
 constexpr Elasticity noteElasticity{3e11, 0.3};
 inline Viscoplasticity noteLaw(Projection projection) {

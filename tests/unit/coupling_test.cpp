@@ -22,10 +22,9 @@ struct Scalar {
   Matrix mass, B, A;
 };
 
-Scalar scalar(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree = 1,
-              double stiffness = 1) {
-  const Coupling coupling = couple(kind, StraightLines(nonmortar, mortar, degree).refinement,
-                                   distanceOfCurves, {}, false, stiffness);
+Scalar scalar(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree = 1) {
+  const Coupling coupling =
+      couple(kind, StraightLines(nonmortar, mortar, degree).refinement, distanceOfCurves);
   const auto alongY = [](const Matrix& C) {
     EXPECT_EQ(C(Eigen::all, Eigen::seq(0, Eigen::last, 2)).cwiseAbs().sum(), 0);
     return Matrix(C(Eigen::all, Eigen::seq(1, Eigen::last, 2)));
@@ -211,97 +210,6 @@ Trace evenTrace(double begin, double size, int elements) {
   return trace;
 }
 
-// Eight elements on two: vertices of the mortar side keep a row each. A nonmortar side that is soft enough to
-// distinguish its nodes keeps all.
-TEST(Coupling, coarsenedRowsAreThoseThatTheMortarTraceTellsApart) {
-  const Trace fine = evenTrace(0, 0.125, 8);
-  const Trace coarse{0, 0.5, 1};
-  const Coupling coupling =
-      couple(CouplingKind::coarsened, StraightLines(fine, coarse).refinement, distanceOfCurves);
-  EXPECT_EQ(coupling.nodes, (std::vector<int>{0, 4, 8}));
-  EXPECT_LE((Matrix(coupling.mass) - Matrix(Vector{{0.25, 0.5, 0.25}}.asDiagonal())).norm(), reproduced);
-  ASSERT_EQ(coupling.between.size(), 6U);
-  EXPECT_EQ(coupling.between[0].node, 1);
-  EXPECT_EQ(coupling.between[0].rows, (std::array{0, 1}));
-  EXPECT_EQ(coupling.between[5].node, 7);
-  EXPECT_EQ(coupling.between[5].rows, (std::array{1, 2}));
-  const Matrix A = scalar(CouplingKind::coarsened, fine, coarse).A;
-  EXPECT_LE((A - Matrix{{2, 1, 0}, {0.5, 2, 0.5}, {0, 1, 2}} / 3).norm(), reproduced);
-  EXPECT_EQ(scalar(CouplingKind::coarsened, fine, coarse, 1, 0.24).nodes.size(), 9U);
-  EXPECT_EQ(scalar(CouplingKind::coarsened, fine, coarse, 2).nodes, (std::vector<int>{0, 2, 4, 6, 8}));
-  EXPECT_EQ(scalar(CouplingKind::coarsened, coarse, fine).nodes.size(), 3U);
-}
-
-// The patch test, on any traces.
-TEST(Coupling, coarsenedRowsReproduceLinearFunctions) {
-  std::mt19937 random(21);
-  std::uniform_int_distribution<int> elements(1, 30);
-  std::uniform_real_distribution<double> power(-3, 3);
-  int fewer = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 20);
-    const Trace mortar = randomTrace(random, elements(random), -0.1, 1.1, 20);
-    const int degree = 1 + trial % 2;
-    const auto values = [&](const Trace& trace, double a, double b) {
-      const SmoothPart part = straightPart(trace, degree);
-      Vector all(part.traceNodes());
-      for (int i = 0; i < all.size(); ++i) {
-        const auto vertices = static_cast<int>(trace.size());
-        all[i] = a + b * (i < vertices ? part.points[i] : part.middlePoints[i - vertices]).x();
-      }
-      return all;
-    };
-    const Scalar coupling =
-        scalar(CouplingKind::coarsened, nonmortar, mortar, degree, std::pow(10, power(random)));
-    fewer += coupling.nodes.size() < nonmortar.size() ? 1 : 0;
-    const Vector jump = coupling.B * values(nonmortar, 2, -3) - coupling.A * values(mortar, 2, -3);
-    ASSERT_LE(jump.cwiseAbs().maxCoeff(), 10 * reproduced);
-    ASSERT_LE(rowSumError(coupling.A), reproduced);
-    ASSERT_GE(coupling.mass.diagonal().minCoeff(), 0);
-    ASSERT_NEAR(coupling.mass.sum(), 1, reproduced);
-  }
-  EXPECT_GT(fewer, 50);
-}
-
-/// The least of int p u ds / (|p| |u|) over nodal pressures p with the best displacements u of the mortar
-/// trace; 1/sqrt(3) where both have the same nodes, as |p| is that of the lumped mass.
-double infSup(const Scalar& coupling, const Trace& mortar, int degree) {
-  const Vector w = coupling.mass.diagonal();
-  const Scalar own = scalar(CouplingKind::mortar, mortar, mortar, degree);
-  Matrix M = w.cwiseSqrt().asDiagonal() * coupling.A;
-  // Columns of B are the nodes of the trace, in the order of the line; rows of the mass as they come.
-  Matrix P(own.mass.rows(), own.mass.cols());
-  for (size_t i = 0; i < own.nodes.size(); ++i)
-    for (size_t j = 0; j < own.nodes.size(); ++j) P(own.nodes[i], own.nodes[j]) = own.mass(i, j);
-  if (M.rows() > M.cols()) return 0;
-  const Matrix S = M * P.llt().solve(M.transpose());
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix>(S).eigenvalues()[0]));
-}
-
-TEST(Coupling, coarsenedRowsKeepTheInfSupConstant) {
-  for (const int degree : {1, 2})
-    for (const double ratio : {1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 3.0, 4.0, 8.0}) {
-      double least = 1;
-      double leastOfAll = 1;
-      for (int position = 0; position < 10; ++position) {
-        const double shift = -0.5 + 0.1 * position;
-        const double node = 1.0 / 24;  // distance of the nodes of the mortar trace
-        const auto fine = static_cast<int>(std::lround(24 * ratio));
-        const Trace nonmortar = evenTrace(0, 1.0 / fine, fine);
-        const Trace mortar = evenTrace((shift - 1) * node * degree, node * degree, 24 / degree + 3);
-        least = std::min(least,
-                         infSup(scalar(CouplingKind::coarsened, nonmortar, mortar, degree), mortar, degree));
-        leastOfAll = std::min(
-            leastOfAll, infSup(scalar(CouplingKind::weighted, nonmortar, mortar, degree), mortar, degree));
-      }
-      std::cout << "degree " << degree << ", mortar nodes " << ratio
-                << " times as far apart: inf-sup constant " << least << ", of all rows " << leastOfAll
-                << "\n";
-      EXPECT_GE(least, 0.09);  // the ends are the worst
-      EXPECT_LE(leastOfAll, 0.01);
-    }
-}
-
 /// Distances whose least value is 0: smooth, with kinks, with a step.
 using Drawn = std::function<double(double)>;
 
@@ -334,8 +242,8 @@ TEST(Coupling, noDistanceIsBelowTheLeastThatItsFunctionSees) {
     const Trace mortar = randomTrace(random, elements(random), -0.1, 1.1, 10);
     for (const Drawn& drawn :
          drawnDistances(trial % 2 == 0 ? nonmortar[nonmortar.size() / 2] : place(random)))
-      for (const CouplingKind kind : {CouplingKind::interpolation, CouplingKind::mortar,
-                                      CouplingKind::weighted, CouplingKind::coarsened})
+      for (const CouplingKind kind :
+           {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted})
         for (const int degree : {1, 2})
           ASSERT_GE(distancesOf(kind, nonmortar, mortar, degree, drawn).minCoeff(), 0)
               << static_cast<int>(kind) << ", degree " << degree;

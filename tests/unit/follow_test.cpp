@@ -11,8 +11,7 @@ namespace mortier::follow_test {
 constexpr int bottom = 1;
 constexpr int top = 3;
 constexpr double rounding = 1e-13;  // of lengths of order one
-constexpr CouplingKind all[] = {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted,
-                                CouplingKind::coarsened};
+constexpr CouplingKind all[] = {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted};
 
 /// A block above a table that is wider; the block is nonmortar.
 struct Blocks {

@@ -36,29 +36,21 @@ TEST_F(ResolvedScenes, sidesAreDecidedInOnePlace) {
 }
 
 // The lower mesh is the finer one, the upper body the stiffer one as it stands.
-TEST_F(ResolvedScenes, pressuresDoNotAlternateByDefault) {
+TEST_F(ResolvedScenes, rowsAreTheSameWhateverTheMeshes) {
   const auto contact = [&](const std::vector<std::string>& settings) {
     return resolveScene(readScene(path(), settings)).description.contacts[0];
   };
+  const auto compliance = [&](const std::vector<std::string>& settings) {
+    const ResolvedScene resolved = resolveScene(readScene(path(), settings));
+    return surfaceCompliance(resolved.description, resolved.description.contacts[0].mortar(),
+                             {&resolved.meshes[0], &resolved.meshes[1]});
+  };
   const std::string stiff = "body.lower.material.young=1e12";
-  EXPECT_EQ(contact({"contact.swap=true"}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({stiff}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff}).variant, CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", stiff}).choice,
-            "fewer nodes as its edges are 1.5 times as short and its body is 3.3 times as stiff");
-  const std::string fine = "body.lower.mesh={shape=\"rectangle\", lower=[0, -1], upper=[1, 0], cells=[4, 4]}";
-  EXPECT_EQ(contact({fine}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", fine}).variant, CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", fine, "body.lower.material.young=3e11"}).choice,
-            "fewer nodes as its edges are 2 times as short");
-  // A prescribed side is a wall: it follows no pressure, and the other body distinguishes all nodes.
-  const std::string wall = "body.upper.boundary=[{label=1, uy=\"-t\"}]";
-  EXPECT_EQ(contact({"contact.swap=true", fine, wall}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, wall}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", fine, "body.upper.boundary=[{label=1, ux=0}]"}).variant,
-            CouplingKind::coarsened);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, "contact.variant=mortar"}).variant, CouplingKind::mortar);
-  EXPECT_EQ(contact({"contact.swap=true", stiff, "accuracy.energy=0.1"}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", stiff}).variant, CouplingKind::mortar);
+  EXPECT_GT(compliance({"contact.swap=true", stiff}), 0);
+  // A prescribed side is a wall: it yields to no pressure.
+  EXPECT_EQ(compliance({"contact.swap=true", "body.upper.boundary=[{label=1, uy=\"-t\"}]"}), 0);
+  EXPECT_GT(compliance({"contact.swap=true", "body.upper.boundary=[{label=1, ux=0}]"}), 0);
   const std::vector<std::string> free{"contact.nonmortar=", "contact.mortar=",
                                       "contact.sides=[{body=\"upper\", label=1}, {body=\"lower\", label=3}]"};
   const auto nonmortar = [&](std::vector<std::string> more) {

@@ -98,13 +98,6 @@ def _(case):
     case.lower = Mesh(0, -1, 1, 0, 32, 16)
 
 
-@fault("pressure-alternates", "[contact]")
-def _(case):
-    case.upper = Mesh(0, 0, 1, 1, 15, 6)
-    case.lower = Mesh(0, -1, 1, 0, 3, 3)
-    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"weighted\"\n")
-
-
 fault("friction-large", "[contact]")(
     lambda case: case.replace("label = 3 }\n", "label = 3 }\nfriction = 1.2\n"))
 

@@ -1,0 +1,42 @@
+// What the conditions of contact yield by where the mortar trace is coarser than the rows.
+//
+// Pressures that alternate within an element of the mortar trace do not move the mortar side, though a mesh
+// as fine as the rows would yield to them: nodal pressures would alternate. The condition of contact is
+//
+//   g = C u - S p - g0 <= 0,   p >= 0,   p g = 0,
+//   p'S p = c/E2 sum_(i<j) k_ij l_i l_j (pi_i - pi_j)^2,   k_ij = max(0, 1 - |s_i - s_j|/h2),
+//
+// with pi = p/w the pressures at the nodes, w the weights and l the lengths of the rows, h2 the distance of
+// the nodes of the mortar trace there and E2 the modulus of the mortar body in a half-plane. With c = 0.4 a
+// force on one node gets about the compliance that the mortar mesh lacks. S is symmetric and nonnegative,
+// without effect on uniform pressures, of second order in h2 on smooth ones, continuous in the places of all
+// nodes, and zero where the mortar side is as fine as the rows or is held.
+//
+// What still varies within h2 is no pressure of the bodies. Pressures are given by the linear functions that
+// fit those within h2 best, with the weights k_ij l_j: linear pressures stay as they are.
+#pragma once
+
+#include <vector>
+
+#include "base/sparse.h"
+#include "contact/common_refinement.h"
+
+namespace mortier {
+
+struct PressureCompliance {
+  Eigen::SparseMatrix<double> S;      ///< rows x rows [m^2/N]
+  Eigen::SparseMatrix<double> means;  ///< of nodal pressures, rows x rows
+  Vector spacing;                     ///< h2 by rows [m]
+};
+
+/// \param nodes  trace nodes of the part that have a row (ElementLine)
+/// \param weights  integrals of the row functions [m], over the whole surface [m^2]
+/// \param lengths  the same along the line [m]
+/// \param mirrors  abscissae of ends at which the line goes on as its mirror image: nodes count with their
+/// images
+/// \param compliance  1/E2, 0 where the mortar side is held [1/Pa]
+PressureCompliance pressureCompliance(const CommonRefinement& refinement, const std::vector<int>& nodes,
+                                      const Vector& weights, const Vector& lengths,
+                                      const std::vector<double>& mirrors, double compliance);
+
+}  // namespace mortier
