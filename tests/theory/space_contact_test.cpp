@@ -6,6 +6,9 @@
 #include <iostream>
 
 #include "material/deviatoric.h"
+#include "material/norton.h"
+#include "material/overstress.h"
+#include "material/viscoelastic.h"
 #include "theory/extruded_contact.h"
 #include "time/space_error.h"
 
