@@ -265,7 +265,7 @@ void stabilise(const CommonRefinement& refinement, const Stabilisation& by, cons
   // What is extrapolated of a convex distance may be below the least one: bodies that touch would press.
   const Vector moved = T * coupling.distance;
   for (Eigen::Index row = 0; row < n; ++row)
-    if (moved[row] < coupling.distance[row] && !drawnStraight(refinement))
+    if (moved[row] < coupling.distance[row])
       coupling.distance[row] = std::max(moved[row], std::min(least[row], coupling.distance[row]));
     else
       coupling.distance[row] = moved[row];

@@ -20,7 +20,7 @@ std::vector<char> mergedNodes(const CommonRefinement& refinement, CouplingKind k
   const auto direction = [&](int i) { return refinement.directionAt(i); };
   const auto held = [&](int i) { return options.nonmortarHeld(part.nodes[i], direction(i)); };
   const auto facingHeld = [&](int i) {
-    if (refinement.empty() || !options.mortarHeld) return false;
+    if (refinement.segments().empty() || !options.mortarHeld) return false;
     const auto& [facing, place] = refinement.facingOfNode(i);
     const auto holds = [&](int end) {
       return facing.psi[end] == 0 ||
