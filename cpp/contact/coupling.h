@@ -76,7 +76,7 @@ struct Stabilisation {
   bool applied = false;
   double mortarCompliance = 0;  ///< 1/E2 of pressure_compliance.h [1/Pa]
   std::vector<char> merged;     ///< vertices of the part without a row of their own
-  std::vector<char> symmetric;  ///< ends of the part at which the line goes on as its mirror image
+  std::vector<char> symmetric;  ///< ends of the part that lie on an axis of symmetry
 };
 
 /// Whether rows are weighted means, with a mass that is diagonal.

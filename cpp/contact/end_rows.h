@@ -7,7 +7,7 @@
 //   (1 + a) row_k - a row_(k-1),   a = (c - x_k)/(x_k - x_(k-1)),
 //
 // which acts at c: gaps are extrapolated linearly. The forces of a uniform pressure stay positive. Rows at an
-// end where the line goes on as its mirror image, or whose row was merged, stay as they are.
+// end on an axis of symmetry, or beside a merged vertex, are not changed.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ namespace mortier {
 /// T, rows x rows: rows with those at ends replaced are T times the others. Identity where none is.
 /// \param nodes  of the rows, along the part; with those of the middles of its elements none is replaced
 /// \param places  abscissae at which the forces of the rows act [m]
-/// \param goesOn  by vertices of the part: whether contact that ends there goes on
+/// \param goesOn  by vertices of the part: whether it lies on an axis of symmetry or is merged
 Eigen::SparseMatrix<double> endRows(const CommonRefinement& refinement, const std::vector<int>& nodes,
                                     const Vector& places, const std::vector<char>& goesOn);
 

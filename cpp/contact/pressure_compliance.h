@@ -32,8 +32,7 @@ struct PressureCompliance {
 /// \param nodes  trace nodes of the part that have a row (ElementLine)
 /// \param weights  integrals of the row functions [m], over the whole surface [m^2]
 /// \param lengths  the same along the line [m]
-/// \param mirrors  abscissae of ends at which the line goes on as its mirror image: nodes count with their
-/// images
+/// \param mirrors  abscissae of ends on axes of symmetry: sums include the mirror images of the nodes
 /// \param compliance  1/E2, 0 where the mortar side is held [1/Pa]
 PressureCompliance pressureCompliance(const CommonRefinement& refinement, const std::vector<int>& nodes,
                                       const Vector& weights, const Vector& lengths,

@@ -20,7 +20,7 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
 
 /// Contacts whose pressures the meshes do not resolve in a state, a line each: those that end within a side
 /// after a few cells, and sides that overlap between their nodes without a force.
-/// \param largestForce  of contact in the run, beside which forces are rounding [N/m]
+/// \param largestForce  the largest contact force of the run; forces below its rounding are ignored [N/m]
 std::vector<std::string> contactDoubts(const Model& model, const State& state, double largestForce);
 
 /// Whether every nonmortar node lies on a mortar node, and the mortar nodes between them on nonmortar ones.

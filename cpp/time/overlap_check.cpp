@@ -118,6 +118,25 @@ std::vector<OverlapCheck::Between> OverlapCheck::between(size_t one, size_t othe
   return contacts;
 }
 
+OverlapCheck::AtPoint OverlapCheck::atPoint(const std::vector<Between>& contacts, size_t own,
+                                            const std::array<int, 2>& labels,
+                                            const std::array<double, 2>& sizes,
+                                            const std::array<std::array<int, 3>, 2>& nodes) {
+  AtPoint result;
+  for (const Between& contact : contacts) {
+    const ContactPair& pair = contact.interface->pair();
+    const size_t nonmortar = pair.nonmortar.body == static_cast<int>(own) ? 0 : 1;
+    result.nonmortar = std::max(result.nonmortar, sizes[nonmortar]);
+    result.named = result.named ||
+                   (pair.nonmortar.label == labels[nonmortar] && pair.mortar.label == labels[1 - nonmortar]);
+    for (const int node : nodes[nonmortar]) {
+      const auto at = std::lower_bound(contact.asked.begin(), contact.asked.end(), std::pair(node, 0.0));
+      if (at != contact.asked.end() && at->first == node) result.asked = std::max(result.asked, at->second);
+    }
+  }
+  return result;
+}
+
 /// What explains a sample explains those within an element as well: a corner is deep in an edge beside it.
 void OverlapCheck::judge(const Region& region, const std::vector<Between>& contacts,
                          BodyOverlap& worst) const {

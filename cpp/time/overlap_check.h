@@ -61,6 +61,15 @@ class OverlapCheck {
   };
   struct Places;
 
+  /// Contacts of two bodies at a point of the boundary of one.
+  struct AtPoint {
+    double asked = 0;      ///< overlap that is asked for there [m]
+    double nonmortar = 0;  ///< size of the nonmortar element; 0 without a contact [m]
+    bool named = false;    ///< whether a contact names both labels
+  };
+  /// \param labels, sizes, nodes  of the elements of the point's own body and of the other one
+  static AtPoint atPoint(const std::vector<Between>& contacts, size_t own, const std::array<int, 2>& labels,
+                         const std::array<double, 2>& sizes, const std::array<std::array<int, 3>, 2>& nodes);
   [[nodiscard]] const Body& body(size_t b) const;
   [[nodiscard]] int wholeNode(size_t b, int node) const;
   [[nodiscard]] BodyOverlap findHere(const std::vector<Vector>& u, const std::vector<Vector>& force,

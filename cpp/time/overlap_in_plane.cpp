@@ -121,26 +121,15 @@ std::vector<OverlapCheck::Region> OverlapCheck::inPlane(size_t one, size_t other
       const Point place = drawn.at(point.side, point.part);
       const Point placeAcross = drawnAcross.at(point.across, point.partAcross);
       sample.drawn = {SpacePoint(place.x(), place.y(), 0), SpacePoint(placeAcross.x(), placeAcross.y(), 0)};
-      double asked = 0;
-      double nonmortar = 0;  // length of its element
-      double inclined = 0;   // its angle to the line across
-      bool named = false;
       const double inclination =
           angle(moved.along(point.side, point.part), -movedAcross.along(point.across, point.partAcross));
-      for (const Between& contact : contacts) {
-        const ContactPair& pair = contact.interface->pair();
-        const bool isNonmortar = pair.nonmortar.body == static_cast<int>(own);
-        nonmortar = std::max(nonmortar, isNonmortar ? length : lengthAcross);
-        inclined = inclination < sharpTurn ? inclination : 0;
-        named = named || (isNonmortar ? pair.nonmortar.label == label && pair.mortar.label == labelAcross
-                                      : pair.nonmortar.label == labelAcross && pair.mortar.label == label);
-        const OutlineSide& side =
-            isNonmortar ? outlines_[own].sides[point.side] : outlines_[across].sides[point.across];
-        for (const int node : {side.nodes[0], side.nodes[1], side.middle}) {
-          const auto at = std::lower_bound(contact.asked.begin(), contact.asked.end(), std::pair(node, 0.0));
-          if (at != contact.asked.end() && at->first == node) asked = std::max(asked, at->second);
-        }
-      }
+      const double inclined = inclination < sharpTurn ? inclination : 0;
+      const auto nodesOf = [&](size_t b, int of) {
+        const OutlineSide& side = outlines_[b].sides[of];
+        return std::array<int, 3>{side.nodes[0], side.nodes[1], side.middle};
+      };
+      auto [asked, nonmortar, named] = atPoint(contacts, own, {label, labelAcross}, {length, lengthAcross},
+                                               {nodesOf(own, point.side), nodesOf(across, point.across)});
       if (!named) asked = std::max(asked, -drawn_[across].nearest(place).distance);
       const double chords = reentrantSagitta(drawn, point.side, point.part) +
                             reentrantSagitta(drawnAcross, point.across, point.partAcross);

@@ -69,25 +69,11 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
     const SpacePoint motion = motionAt(drawn, moved, point.triangle, point.at);
     const SpacePoint motionAcross = motionAt(drawnAcross, movedAcross, point.across, point.foot);
     sample.drawn = {SpacePoint(point.at - motion), SpacePoint(point.foot - motionAcross)};
-    double asked = 0;
-    double nonmortar = 0;
-    double inclined = 0;
-    bool named = false;
     const double inclination = angle(moved.normal(point.triangle), -movedAcross.normal(point.across));
-    for (const Between& contact : contacts) {
-      const ContactPair& pair = contact.interface->pair();
-      const bool isNonmortar = pair.nonmortar.body == static_cast<int>(own);
-      nonmortar = std::max(nonmortar, isNonmortar ? size : sizeAcross);
-      inclined = inclination < sharpTurn ? inclination : 0;
-      named = named || (isNonmortar ? pair.nonmortar.label == label && pair.mortar.label == labelAcross
-                                    : pair.nonmortar.label == labelAcross && pair.mortar.label == label);
-      const std::array<int, 3>& triangle = isNonmortar ? spaceOutlines_[own].triangles[point.triangle]
-                                                       : spaceOutlines_[across].triangles[point.across];
-      for (const int node : triangle) {
-        const auto at = std::lower_bound(contact.asked.begin(), contact.asked.end(), std::pair(node, 0.0));
-        if (at != contact.asked.end() && at->first == node) asked = std::max(asked, at->second);
-      }
-    }
+    const double inclined = inclination < sharpTurn ? inclination : 0;
+    auto [asked, nonmortar, named] = atPoint(
+        contacts, own, {label, labelAcross}, {size, sizeAcross},
+        {spaceOutlines_[own].triangles[point.triangle], spaceOutlines_[across].triangles[point.across]});
     if (!named) asked = std::max(asked, -drawnAcross.nearest(sample.drawn[0]).distance);
     const double chords = (point.node ? 0 : size * smoothTurn(drawn, point.triangle, true) / 4) +
                           sizeAcross * smoothTurn(drawnAcross, point.across, true) / 4;

@@ -1,4 +1,5 @@
-"""Contact in space that the first meshes miss: the overlap is told, and an accuracy refines where it is."""
+"""First meshes in space that are too coarse for a contact: the run warns of the overlap, and rounds of
+refinement find the contact."""
 import json
 import unittest
 

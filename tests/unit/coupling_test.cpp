@@ -225,9 +225,11 @@ std::vector<Drawn> drawnDistances(double at) {
 }
 
 Vector distancesOf(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree,
-                   const Drawn& drawn) {
+                   const Drawn& drawn, bool stabilised = false) {
+  const std::vector<char> none(nonmortar.size(), 0);
   return couple(kind, StraightLines(nonmortar, mortar, degree).refinement,
-                [&](int, double s, const FacingPair&) { return drawn(s); })
+                [&](int, double s, const FacingPair&) { return drawn(s); }, {}, false, {},
+                {stabilised, 1, none, none})
       .distance;
 }
 
@@ -245,8 +247,9 @@ TEST(Coupling, noDistanceIsBelowTheLeastThatItsFunctionSees) {
       for (const CouplingKind kind :
            {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted})
         for (const int degree : {1, 2})
-          ASSERT_GE(distancesOf(kind, nonmortar, mortar, degree, drawn).minCoeff(), 0)
-              << static_cast<int>(kind) << ", degree " << degree;
+          for (const bool stabilised : {false, true})
+            ASSERT_GE(distancesOf(kind, nonmortar, mortar, degree, drawn, stabilised).minCoeff(), 0)
+                << static_cast<int>(kind) << ", degree " << degree << (stabilised ? ", stabilised" : "");
   }
 }
 
