@@ -146,6 +146,10 @@ class Directions {
     return std::max(part_.s[before + 1] - part_.s[before], part_.s[after + 1] - part_.s[after]);
   }
 
+  [[nodiscard]] double toCorner(int i, const LineHit& hit) const {
+    return mortar_.toCorner(hit.element, hit.xi, part_.normals[i]);
+  }
+
   [[nodiscard]] double mortarShare(int i, double curvature, double toCorner) const {
     if (kept_ != nullptr) return shares_[i];
     double share = 0;
@@ -171,12 +175,12 @@ class Directions {
     if (ahead_[i].part < 0) hit = acrossFrom(i);
     if (!hit.found()) return besideEnd(i);
     const LineHit first = hit;
-    const bool fades = std::isfinite(mortar_.toCorner(hit.element, hit.xi)) && toEnd_[i] == 0;
+    const bool fades = std::isfinite(toCorner(i, hit)) && toEnd_[i] == 0;
     Point n = part_.normals[i];
     for (int k = 0; k < most; ++k) {
       const Point before = n;
       n = blended(i, mortar_.normalAt(hit.element, hit.xi), mortar_.curvatureAt(hit.element, hit.xi),
-                  mortar_.toCorner(hit.element, hit.xi));
+                  toCorner(i, hit));
       if ((n - before).lpNorm<Eigen::Infinity>() <= same) return n;
       hit = mortar_.along(part_.points[i], n);
       if (!hit.found() && !fades) return n;
@@ -201,8 +205,7 @@ class Directions {
       const LineHit there = mortar_.along(part_.points[i], ray(middle));
       const bool samePart =
           there.found() && mortar_.geometry[there.element].part == mortar_.geometry[first.element].part;
-      const bool isBelow =
-          samePart && mortarShare(i, curvature, mortar_.toCorner(there.element, there.xi)) > middle;
+      const bool isBelow = samePart && mortarShare(i, curvature, toCorner(i, there)) > middle;
       (isBelow ? share : above) = middle;
     }
     shares_[i] = share;
@@ -211,12 +214,13 @@ class Directions {
   }
 
   /// What a vertex on a curve whose own normal misses the mortar line faces: the ray along the normal of the
-  /// nearest point of that line, so that the length of the line does not matter.
+  /// nearest point of that line that it may face, so that the length of the line does not matter, nor what it
+  /// has behind its corners.
   [[nodiscard]] LineHit acrossFrom(int i) const {
     if (part_.straight || share_ == 0.0) return {};
-    const LineHit nearest = mortar_.nearestTo(part_.points[i]);
-    const Point across = -mortar_.normalAt(nearest.element, nearest.xi);
-    return part_.normals[i].dot(across) > 0 ? mortar_.along(part_.points[i], across) : LineHit{};
+    const LineHit nearest = mortar_.nearestTo(part_.points[i], part_.normals[i]);
+    if (!nearest.found()) return {};
+    return mortar_.along(part_.points[i], -mortar_.normalAt(nearest.element, nearest.xi));
   }
 
   /// At a vertex past an end of the mortar line by less than an element: as at that end.

@@ -18,16 +18,14 @@ MortarLine::MortarLine(const std::vector<SmoothPart>& parts, bool isClosed)
   for (size_t k = parts.size(); k-- > 0;) {
     const SmoothPart& part = parts[k];
     const bool round = closed && !part.closed;
-    const bool cornerBefore = k > 0 || round;
-    const bool cornerAfter = k + 1 < parts.size() || round;
+    const SmoothPart* before = k > 0 ? &parts[k - 1] : round ? &parts.back() : nullptr;
+    const SmoothPart* after = k + 1 < parts.size() ? &parts[k + 1] : round ? &parts.front() : nullptr;
+    const std::array<Point, 2> behindCorner = {after != nullptr ? after->normals.front() : Point::Zero(),
+                                               before != nullptr ? before->normals.back() : Point::Zero()};
     if (nodes.empty()) {
       nodes.push_back(part.nodes.back());
       points.push_back(part.points.back());
     }
-    const auto toCorner = [&](int node) {
-      return std::min(cornerBefore ? part.s[node] : infinity,
-                      cornerAfter ? part.length() - part.s[node] : infinity);
-    };
     for (int e = part.elements() - 1; e >= 0; --e) {
       nodes.push_back(part.nodes[e]);
       points.push_back(part.points[e]);
@@ -37,7 +35,9 @@ MortarLine::MortarLine(const std::vector<SmoothPart>& parts, bool isClosed)
       }
       geometry.push_back({{part.normals[e + 1], part.normals[e]},
                           {part.curvatures[e + 1], part.curvatures[e]},
-                          {toCorner(e + 1), toCorner(e)},
+                          {after != nullptr ? part.length() - part.s[e + 1] : infinity,
+                           before != nullptr ? part.s[e] : infinity},
+                          behindCorner,
                           part.arcs[e],
                           part.drawn,
                           static_cast<int>(k),
@@ -85,13 +85,13 @@ LineHit MortarLine::along(const Point& x, const Point& n) const {
   return result != nullptr ? result->hit : LineHit{};
 }
 
-LineHit MortarLine::nearestTo(const Point& x) const {
+LineHit MortarLine::nearestTo(const Point& x, const Point& n) const {
   LineHit nearest;
   tree.near(x, nearest.distance, [&](int j) {
     const Point side = points[j + 1] - points[j];
     const double xi = std::clamp((x - points[j]).dot(side) / side.squaredNorm(), 0.0, 1.0);
     const double distance = (at(j, xi) - x).norm();
-    if (distance < nearest.distance) nearest = {j, xi, distance};
+    if (distance < nearest.distance && n.dot(normalAt(j, xi)) < 0) nearest = {j, xi, distance};
   });
   return nearest;
 }
@@ -125,6 +125,17 @@ double MortarLine::toCorner(int element, double xi) const {
   const double length = (points[element + 1] - points[element]).norm();
   const auto& [a, b] = geometry[element].toCorner;
   return std::min(a + part * length, b + (1 - part) * length);
+}
+
+double MortarLine::toCorner(int element, double xi, const Point& n) const {
+  const double part = std::clamp(xi, 0.0, 1.0);
+  const double length = (points[element + 1] - points[element]).norm();
+  const MortarElement& here = geometry[element];
+  const auto from = [&](size_t end, double toEnd) {
+    const double facing = std::clamp(-2 * n.dot(here.behindCorner[end]), 0.0, 1.0);
+    return facing > 0 ? (here.toCorner[end] + toEnd) / facing : infinity;
+  };
+  return std::min(from(0, part * length), from(1, (1 - part) * length));
 }
 
 }  // namespace mortier

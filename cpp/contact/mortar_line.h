@@ -14,7 +14,8 @@ namespace mortier {
 struct MortarElement {
   std::array<Point, 2> normals;                        ///< outward of the mortar body
   std::array<double, 2> curvatures{};                  ///< without sign [1/m]
-  std::array<double, 2> toCorner{infinity, infinity};  ///< along the line to the nearest corner [m]
+  std::array<double, 2> toCorner{infinity, infinity};  ///< from each end on, along the line [m]
+  std::array<Point, 2> behindCorner;                   ///< normals behind these corners
   Arc arc;                                             ///< as the mortar body runs
   std::shared_ptr<const SmoothPart> drawn = nullptr;   ///< of its part, if that has moved
   int part = 0;                                        ///< number of its smooth part
@@ -44,8 +45,8 @@ struct MortarLine : ElementLine {
   /// The nearest point on the line through x along n that x faces: n points into the mortar body there, and
   /// no other point of the line lies between.
   [[nodiscard]] LineHit along(const Point& x, const Point& n) const;
-  /// The point of the line nearest to x.
-  [[nodiscard]] LineHit nearestTo(const Point& x) const;
+  /// The nearest to x of the points of the line into which n points there.
+  [[nodiscard]] LineHit nearestTo(const Point& x, const Point& n) const;
   /// The part of an element at which (y - x) x n = 0, beyond its ends where that is there.
   [[nodiscard]] double partAlong(int element, const Point& x, const Point& n) const;
   /// Between the ends of an element; at the nearer end beyond them.
@@ -53,6 +54,9 @@ struct MortarLine : ElementLine {
   [[nodiscard]] double curvatureAt(int element, double xi) const;
   /// Along the line from a point to the nearest corner of it [m].
   [[nodiscard]] double toCorner(int element, double xi) const;
+  /// The same of corners behind which the line may be faced along n: lengths over a factor that falls from 1
+  /// at 60 degrees between n and the side behind the corner to 0 where that turns away.
+  [[nodiscard]] double toCorner(int element, double xi, const Point& n) const;
   [[nodiscard]] Point direction(int element) const {
     return (points[element + 1] - points[element]).normalized();
   }
