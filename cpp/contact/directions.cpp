@@ -218,9 +218,11 @@ class Directions {
   /// has behind its corners.
   [[nodiscard]] LineHit acrossFrom(int i) const {
     if (part_.straight || share_ == 0.0) return {};
-    const LineHit nearest = mortar_.nearestTo(part_.points[i], part_.normals[i]);
+    const Point& n = part_.normals[i];
+    const LineHit nearest = mortar_.nearestTo(part_.points[i], n);
     if (!nearest.found()) return {};
-    return mortar_.along(part_.points[i], -mortar_.normalAt(nearest.element, nearest.xi));
+    const LineHit hit = mortar_.along(part_.points[i], -mortar_.normalAt(nearest.element, nearest.xi));
+    return hit.found() && mortar_.mayFace(hit.element, hit.xi, n) ? hit : LineHit{};
   }
 
   /// At a vertex past an end of the mortar line by less than an element: as at that end.

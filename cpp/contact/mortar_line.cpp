@@ -10,6 +10,8 @@ namespace {
 constexpr double sameFacedPart = 4e-16;
 /// So do distances by this part of an element: coordinates may be rounded.
 constexpr double sameDistance = 1e-9;
+/// A direction that makes more than 75 degrees with the normal of a side is no direction of contact there.
+constexpr double leastCosine = 0.25;
 
 }  // namespace
 
@@ -91,9 +93,13 @@ LineHit MortarLine::nearestTo(const Point& x, const Point& n) const {
     const Point side = points[j + 1] - points[j];
     const double xi = std::clamp((x - points[j]).dot(side) / side.squaredNorm(), 0.0, 1.0);
     const double distance = (at(j, xi) - x).norm();
-    if (distance < nearest.distance && n.dot(normalAt(j, xi)) < 0) nearest = {j, xi, distance};
+    if (distance < nearest.distance && mayFace(j, xi, n)) nearest = {j, xi, distance};
   });
   return nearest;
+}
+
+bool MortarLine::mayFace(int element, double xi, const Point& n) const {
+  return n.dot(normalAt(element, xi)) < -leastCosine;
 }
 
 double MortarLine::partAlong(int element, const Point& x, const Point& n) const {
@@ -132,7 +138,7 @@ double MortarLine::toCorner(int element, double xi, const Point& n) const {
   const double length = (points[element + 1] - points[element]).norm();
   const MortarElement& here = geometry[element];
   const auto from = [&](size_t end, double toEnd) {
-    const double facing = std::clamp(-2 * n.dot(here.behindCorner[end]), 0.0, 1.0);
+    const double facing = std::clamp(-n.dot(here.behindCorner[end]) / leastCosine - 1, 0.0, 1.0);
     return facing > 0 ? (here.toCorner[end] + toEnd) / facing : infinity;
   };
   return std::min(from(0, part * length), from(1, (1 - part) * length));

@@ -45,7 +45,9 @@ struct MortarLine : ElementLine {
   /// The nearest point on the line through x along n that x faces: n points into the mortar body there, and
   /// no other point of the line lies between.
   [[nodiscard]] LineHit along(const Point& x, const Point& n) const;
-  /// The nearest to x of the points of the line into which n points there.
+  /// Whether n makes less than 75 degrees with the direction into the mortar body.
+  [[nodiscard]] bool mayFace(int element, double xi, const Point& n) const;
+  /// The nearest to x of the points of the line that n may face.
   [[nodiscard]] LineHit nearestTo(const Point& x, const Point& n) const;
   /// The part of an element at which (y - x) x n = 0, beyond its ends where that is there.
   [[nodiscard]] double partAlong(int element, const Point& x, const Point& n) const;
@@ -55,7 +57,7 @@ struct MortarLine : ElementLine {
   /// Along the line from a point to the nearest corner of it [m].
   [[nodiscard]] double toCorner(int element, double xi) const;
   /// The same of corners behind which the line may be faced along n: lengths over a factor that falls from 1
-  /// at 60 degrees between n and the side behind the corner to 0 where that turns away.
+  /// where n and the normal behind the corner make 60 degrees to 0 where they make 75.
   [[nodiscard]] double toCorner(int element, double xi, const Point& n) const;
   [[nodiscard]] Point direction(int element) const {
     return (points[element + 1] - points[element]).normalized();
