@@ -94,8 +94,8 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 /// where the part faces the mortar line.
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
 /// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
-/// \param only  the vertices that may have a row, whether or not they face the mortar line themselves; empty:
-/// those that do
+/// \param only  the trace nodes that may have a row, whether or not they face the mortar line themselves;
+/// empty: those that do
 Coupling couple(CouplingKind kind, const CommonRefinement& refinement,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
                 bool axisymmetric = false, const std::vector<char>& only = {},

@@ -118,8 +118,8 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
     std::vector<char> merged = lines.merged[k];
     mergeCorners(facing, corners, merged);
     std::vector<char> only;
-    for (size_t i = 0; i < part.nodes.size() && keepRows; ++i) {
-      const auto row = rowOf.find(part.nodes[i]);
+    for (int node = 0; node < part.traceNodes() && keepRows; ++node) {
+      const auto row = rowOf.find(part.number(node));
       only.push_back(row != rowOf.end() && facedBefore[row->second] != 0 ? 1 : 0);
     }
     const Coupling coupling = couple(pair_.coupling, facing, distanceOfCurves, merged, axisymmetric_, only,

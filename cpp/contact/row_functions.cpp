@@ -1,6 +1,7 @@
 #include "contact/row_functions.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace mortier {
 
@@ -30,9 +31,18 @@ RowFunctions::RowFunctions(CouplingKind kind, const CommonRefinement& refinement
   }
   for (const CornerContact& corner : refinement.corners())
     if (corner.weight > atCorner && (only.empty() || only[corner.vertex] != 0)) faced[corner.vertex] = 1;
-  const auto has = [&](size_t i) {
-    const size_t own = part.closed && i == last ? 0 : i;
-    return (merged.empty() || merged[own] == 0) && faced[own] != 0;
+  const auto isMerged = [&](size_t i) {
+    return !merged.empty() && merged[part.closed && i == last ? 0 : i] != 0;
+  };
+  const auto has = [&](size_t i) { return !isMerged(i) && faced[part.closed && i == last ? 0 : i] != 0; };
+  // A value at a node in the middle does not need those at both ends.
+  const auto middleFaces = [&](size_t e) {
+    if (kind != CouplingKind::interpolation || isMerged(e) || isMerged(e + 1)) return false;
+    const auto [from, to] = refinement.piecesOf(static_cast<int>(e));
+    if (!only.empty()) return from < to && only[last + 1 + e] != 0;
+    const double middle = (part.s[e] + part.s[e + 1]) / 2;
+    return std::any_of(refinement.segments().begin() + from, refinement.segments().begin() + to,
+                       [&](const Segment& piece) { return piece.begin <= middle && middle <= piece.end; });
   };
   const auto add = [&](size_t node) {
     ofNode_[node] = count();
@@ -43,7 +53,7 @@ RowFunctions::RowFunctions(CouplingKind kind, const CommonRefinement& refinement
       ofNode_[i] = ofNode_[0];
     else if (has(i))
       add(i);
-    if (degree_ == 2 && i < last && has(i) && has(i + 1)) add(last + 1 + i);
+    if (degree_ == 2 && i < last && ((has(i) && has(i + 1)) || middleFaces(i))) add(last + 1 + i);
   }
 }
 
@@ -54,8 +64,12 @@ EdgeNodes RowFunctions::at(int element) const {
 }
 
 EdgeValues RowFunctions::functions(int element, const EdgeNodes& rows, double s) const {
-  if (rows[0] < 0 || rows[1] < 0) return EdgeValues::Unit(rows.size(), rows[0] < 0 ? 1 : 0);
-  return edgeShapes(degree_, part_.partAt(element, s));
+  if (rows[0] >= 0 && rows[1] >= 0) return edgeShapes(degree_, part_.partAt(element, s));
+  if (rows.size() == 2 || rows[2] < 0) return EdgeValues::Unit(rows.size(), rows[0] < 0 ? 1 : 0);
+  EdgeValues functions = edgeShapes(degree_, part_.partAt(element, s));
+  for (int end = 0; end < 2; ++end)  // the middle has the part of an end without a row
+    if (rows[end] < 0) functions[2] += std::exchange(functions[end], 0);
+  return functions;
 }
 
 }  // namespace mortier
