@@ -23,18 +23,21 @@ struct Crossing {
   bool faces;  ///< whether they face each other: else it hides what is behind it
 };
 
-/// Whether pieces that face the element leave nothing of [0, 1] free.
-bool facingCover(std::vector<Crossing> pieces) {
-  std::erase_if(pieces, [](const Crossing& piece) { return !piece.faces; });
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Crossing& a, const Crossing& b) { return a.begin < b.begin; });
-  double covered = 0;
-  for (const Crossing& piece : pieces) {
-    if (piece.begin > covered + negligiblePart) return false;
-    covered = std::max(covered, piece.end);
+/// What pieces of an element leave free of [0, 1].
+class FreeParts {
+ public:
+  void take(double begin, double end) {
+    std::vector<std::array<double, 2>> free;
+    for (const auto& [a, b] : free_)
+      for (const auto& [from, to] : {std::array{a, std::min(b, begin)}, std::array{std::max(a, end), b}})
+        if (to - from > negligiblePart) free.push_back({from, to});
+    free_ = std::move(free);
   }
-  return covered >= 1 - negligiblePart;
-}
+  [[nodiscard]] bool none() const { return free_.empty(); }
+
+ private:
+  std::vector<std::array<double, 2>> free_{{0, 1}};
+};
 
 /// How far the curve behind an element is from a point x of it, along n: where the part has moved, that of
 /// the drawn one, which turns with the element.
@@ -100,7 +103,8 @@ void CommonRefinement::refine(int element) {
   }();
   std::vector<Crossing> pieces;
   double bound = infinity;
-  mortar.tree.near(box.min(), box.max(), bound, [&](int j) {
+  FreeParts free;
+  const auto visit = [&](int j) {
     const double cosine = direction.dot(mortar.direction(j));
     const auto [afterBegin, afterEnd] = sideOf(j, cosine > 0);
     const auto [beforeBegin, beforeEnd] = sideOf(j + 1, !(cosine > 0));
@@ -108,11 +112,17 @@ void CommonRefinement::refine(int element) {
                          cosine > leastFacing};
     if (!(piece.end - piece.begin > negligiblePart)) return;
     pieces.push_back(piece);
-    if (!facingCover(pieces)) return;
+    if (piece.faces) free.take(piece.begin, piece.end);
+    if (!free.none()) return;
     bound = 0;
     for (const Crossing& each : pieces)
       for (const double xi : {each.begin, each.end})
         if (each.faces) bound = std::max(bound, std::abs(distanceAt(each.mortar, xi)));
+  };
+  // Elements between which and the rays of both ends nothing lies are faced by none between them.
+  mortar.tree.near(box.min(), box.max(), bound, visit, [&](const Point& low, const Point& high) {
+    const int first = sideOfLine(low, high, part.points[element], ray(element, 0));
+    return first == 0 || first != sideOfLine(low, high, part.points[element + 1], ray(element, 1));
   });
   if (pieces.empty()) return;
   std::vector<double> cuts;

@@ -63,7 +63,7 @@ LineHit MortarLine::along(const Point& x, const Point& n) const {
   };
   std::array<Passage, 2> nearest;  // ahead and behind
   double bound = infinity;
-  tree.near(x, bound, [&](int j) {
+  const auto visit = [&](int j) {
     // The product is positive for a point behind on the line; of an element that faces x the first end is.
     const Point side = points[j + 1] - points[j];
     const double length = side.norm();
@@ -80,7 +80,9 @@ LineHit MortarLine::along(const Point& x, const Point& n) const {
     bound = infinity;
     for (const Passage& each : nearest)
       if (each.faces) bound = std::min(bound, std::abs(each.hit.distance) + each.same);
-  });
+  };
+  tree.near(x, bound, visit,
+            [&](const Point& low, const Point& high) { return sideOfLine(low, high, x, n) == 0; });
   const Passage* result = nullptr;
   for (const Passage& each : nearest)
     if (each.faces && (result == nullptr || isNearer(each, *result))) result = &each;
