@@ -112,6 +112,23 @@ TEST(CommonRefinement, aCornerOnASlopeHasTheNormalOfTheSlope) {
   }
 }
 
+// The top of a table alone, or its whole outline: the sides behind its corners turn away from a ring above it.
+TEST(CommonRefinement, sidesThatNothingFacesChangeNoDirection) {
+  for (const double half : {0.8, 1.05, 1.4}) {
+    const SmoothPart part = smoothParts(lineThrough(circle(24, {0, 1.01}, 1), true)).front();
+    const MortarLine top(lineThrough({{half, 0}, {-half, 0}}));
+    const MortarLine table(lineThrough({{half, 0}, {-half, 0}, {-half, -2}, {half, -2}}, true));
+    const CommonRefinement alone(part, top);
+    const CommonRefinement whole(part, table);
+    EXPECT_NEAR(alone.length(), whole.length(), rounding) << half;
+    for (size_t i = 0; i < part.nodes.size(); ++i) {
+      const auto node = static_cast<int>(i);
+      EXPECT_EQ(alone.faces(node), whole.faces(node)) << half << ", " << i;
+      EXPECT_LE((alone.directionAt(node) - whole.directionAt(node)).norm(), rounding) << half << ", " << i;
+    }
+  }
+}
+
 // Blocks with even sides have no corner that touches alone.
 TEST(CommonRefinement, evenSidesTouchAllAlong) {
   const SmoothPart part = smoothParts(lineThrough(cut({{0, 0}, {1, 0}}, 8))).front();
