@@ -175,12 +175,14 @@ class Directions {
     if (ahead_[i].part < 0) hit = acrossFrom(i);
     if (!hit.found()) return besideEnd(i);
     const LineHit first = hit;
-    const bool fades = std::isfinite(toCorner(i, hit)) && toEnd_[i] == 0;
+    // In a reentrant corner the share moves what is faced away from the corner, by which it would grow.
+    const double toFirst = toCorner(i, first);
+    const bool fades = std::isfinite(toFirst) && toEnd_[i] == 0;
     Point n = part_.normals[i];
     for (int k = 0; k < most; ++k) {
       const Point before = n;
       n = blended(i, mortar_.normalAt(hit.element, hit.xi), mortar_.curvatureAt(hit.element, hit.xi),
-                  toCorner(i, hit));
+                  std::min(toFirst, toCorner(i, hit)));
       if ((n - before).lpNorm<Eigen::Infinity>() <= same) return n;
       hit = mortar_.along(part_.points[i], n);
       if (!hit.found() && !fades) return n;

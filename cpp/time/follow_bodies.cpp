@@ -64,38 +64,58 @@ std::vector<Vector> incrementsOf(const Iterate& iterate) {
   return result;
 }
 
+Vector joined(const std::vector<Vector>& parts) {
+  Eigen::Index size = 0;
+  for (const Vector& part : parts) size += part.size();
+  Vector result(size);
+  size = 0;
+  for (const Vector& part : parts) {
+    result.segment(size, part.size()) = part;
+    size += part.size();
+  }
+  return result;
+}
+
 /// How far bodies move from where their rows are, repetition by repetition: towards a state, or away.
 class Repetitions {
  public:
   /// \param rows  increments of the bodies where the rows are [m]
-  explicit Repetitions(std::vector<Vector> rows) : rows_(std::move(rows)) {}
+  explicit Repetitions(std::vector<Vector> rows) : rows_(std::move(rows)), at_(joined(rows_)) {}
 
   /// Takes the increments that were found with the rows.
   void add(const std::vector<Vector>& found) {
-    double square = 0;
-    double along = 0;
-    std::vector<Vector> change;
-    for (size_t b = 0; b < found.size(); ++b) {
-      change.push_back(found[b] - rows_[b]);
-      square += change[b].squaredNorm();
-      if (!change_.empty()) along += change[b].dot(change_[b]);
-    }
+    const Vector before = std::exchange(change_, joined(found) - at_);
+    const double square = change_.squaredNorm();
+    along_ = before.size() > 0 ? change_.dot(before) : 0;
     approaches_ = square < square_;
-    grown_ = along > 0 && !approaches_ ? grown_ + 1 : 0;
-    const double turn = square + square_ - 2 * along;
-    part_ = change_.empty() || !(turn > 0) ? 1 : std::clamp(part_ * (square_ - along) / turn, least, 1.0);
+    grown_ = along_ > 0 && !approaches_ ? grown_ + 1 : 0;
     square_ = square;
-    change_ = std::move(change);
+    if (before.size() == 0) return;
+    last_.push_back({step_, change_ - before});
+    if (last_.size() > depth) last_.erase(last_.begin());
   }
 
-  /// Where the next rows are to be: where the bodies are, or where changes swing about a state, on the way
-  /// there (Aitken's relaxation).
+  /// Where the next rows are to be: where the bodies are, or once changes swing about a state, where they
+  /// would vanish if they were linear in the last ones (Anderson's acceleration).
   const std::vector<Vector>& goOn(bool mayRelax) {
-    if (!mayRelax) part_ = 1;
-    for (size_t b = 0; b < rows_.size(); ++b) rows_[b] += part_ * change_[b];
+    relaxes_ = relaxes_ || (mayRelax && along_ < 0);
+    step_ = change_;
+    if (relaxes_) {
+      Matrix changes(change_.size(), static_cast<Eigen::Index>(last_.size()));
+      for (size_t k = 0; k < last_.size(); ++k) changes.col(static_cast<Eigen::Index>(k)) = last_[k].ofChange;
+      const Vector shares = changes.colPivHouseholderQr().solve(change_);
+      for (size_t k = 0; k < last_.size(); ++k)
+        step_ -= shares[static_cast<Eigen::Index>(k)] * (last_[k].ofRows + last_[k].ofChange);
+    }
+    at_ += step_;
+    Eigen::Index begin = 0;
+    for (Vector& body : rows_) {
+      body = at_.segment(begin, body.size());
+      begin += body.size();
+    }
     return rows_;
   }
-  [[nodiscard]] bool relaxes() const { return part_ < 1; }
+  [[nodiscard]] bool relaxes() const { return relaxes_; }
   [[nodiscard]] bool approaches() const { return approaches_; }  ///< the last change is less than that before
   /// Of a body that contact alone holds, the rigid motion in words by which the last repetition moves it: it
   /// finds no place where contact carries its load. A tool moves as a rigid body whatever the reason is, and
@@ -103,11 +123,17 @@ class Repetitions {
   [[nodiscard]] std::string whatFalls(const Model& model) const;
 
  private:
-  static constexpr double least = 0.1;
+  struct Difference {
+    Vector ofRows, ofChange;
+  };
+  static constexpr size_t depth = 5;
   std::vector<Vector> rows_;
-  std::vector<Vector> change_;
+  Vector at_;  ///< the same in one
+  Vector change_, step_;
+  std::vector<Difference> last_;
   double square_ = infinity;
-  double part_ = 1;  ///< of the change by which rows go on
+  double along_ = 0;
+  bool relaxes_ = false;
   bool approaches_ = true;
   int grown_ = 0;  ///< repetitions, the last of them
 };
@@ -115,11 +141,13 @@ class Repetitions {
 std::string Repetitions::whatFalls(const Model& model) const {
   constexpr double strained = 0.3;  // part of a change that is none of the body as drawn, which has turned
   constexpr int enough = 4;         // changes of a cycle go back before
+  Eigen::Index begin = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    const Vector change = change_.segment(begin, rows_[b].size());
+    begin += change.size();
     if (body.rigid() && grown_ < enough) continue;
     const Matrix modes = rigidModes(body);
-    const Vector& change = change_[b];
     if (modes.cols() == 0 || change.isZero(0)) continue;
     const Vector motion = modes * modes.colPivHouseholderQr().solve(change);
     if ((change - motion).norm() <= strained * change.norm())

@@ -136,7 +136,7 @@ template <class Where>
 Range displacementRange(const Body& body, const BodyState& state, int component, Where where) {
   Range range;
   for (int v = 0; v < body.nodes(); ++v)
-    if (where(body.mesh().vertices[v])) range.add(state.displacement[2 * v + component]);
+    if (where(body.elementNodes().places[v])) range.add(state.displacement[2 * v + component]);
   return range;
 }
 
