@@ -209,8 +209,10 @@ class Parser {
     const std::string_view keyword = words_.next();
     if (keyword == "End") return false;
     if (keyword.empty() && hasElements()) {
-      if (before < text_.text.size()) return false;
-      words_.fail(before, "end of file within a line, expected a line break or End after the last number");
+      if (before == text_.text.size())
+        words_.fail(before, "end of file within a line, expected a line break or End after the last number");
+      words_.rewind();
+      return false;
     }
     const auto* const kind = std::find_if(itemKinds.begin(), itemKinds.end(),
                                           [&](const ItemKind& each) { return each.keyword == keyword; });

@@ -155,7 +155,7 @@ void findPlaces(SceneDescription& scene, std::vector<Mesh>& meshes) {
         label = regionLabel(meshes[body], label, name, place(body, where));
       },
       [&]<class Place>(int body, Place& point, const std::string& where) {
-        if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), const Place&>)
+        if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), Place&>)
           point = vertexPoint(meshes[body], point, place(body, where));
       });
   for (size_t b = 0; b < meshes.size(); ++b) chooseGroupsOf(scene, static_cast<int>(b), meshes[b]);
