@@ -147,12 +147,14 @@ int withMesh(const MeshSource& source, const Use& use) {
   std::optional<TetrahedronMesh> space;
   try {
     return use(readMesh(source));
-  } catch (const InputError& error) {
-    const bool isSolid = std::string(error.what()).find("dimension = 3") != std::string::npos;
+  } catch (const InputError& inPlane) {
+    const auto says = [](const InputError& error, const char* words) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    };
     try {
       space = readSpaceMesh(source);
-    } catch (const InputError&) {
-      if (isSolid) throw;
+    } catch (const InputError& inSpace) {
+      if (says(inPlane, "dimension = 3") && !says(inSpace, "no tetrahedra")) throw;
     }
     if (!space) throw;
   }

@@ -82,6 +82,7 @@ class Strip:
                                       "gmsh:geometrical": [np.array(r) for r in references]})
 
 
+NOT_IN_MESHIO = {("pyramid", True), ("wedge", True)}
 ABAQUS = {("triangle", False): ("CPS3", "CPE3", "CAX3", "S3"),
           ("triangle", True): ("CPS6", "CPE6", "CAX6", "STRI65"),
           ("quad", False): ("CPS4R", "CPE4H"), ("quad", True): ("CPE8R", "CAX8"),
@@ -176,7 +177,7 @@ class MeshFiles(InFolder):
 
     def test_what_meshio_reads(self):
         for kind, quadratic in itertools.product(SIMPLICES, (False, True)):
-            if (kind, quadratic) == ("pyramid", True):
+            if (kind, quadratic) in NOT_IN_MESHIO:
                 continue
             strip = Strip(kind, quadratic)
             for extension in ("vtk", "vtu"):
@@ -186,7 +187,7 @@ class MeshFiles(InFolder):
 
     def test_what_gmsh_reads(self):
         for kind, quadratic in itertools.product(SIMPLICES, (False, True)):
-            if (kind, quadratic) == ("pyramid", True):
+            if (kind, quadratic) in NOT_IN_MESHIO:
                 continue
             strip = Strip(kind, quadratic)
             meshio.write(self.folder / "a.msh", strip.meshio(), file_format="gmsh22", binary=False)
@@ -213,7 +214,7 @@ class MeshFiles(InFolder):
         flat = inp(Strip("triangle"), "CPS3")
         for of, text, message in [
                 ("a.inp", sound.replace("101, 0.0,", "101, nan,"),
-                 "a.inp:5: node 101 at nan, 0.0, 0.0, expected"),
+                 "a.inp:4: node 101 at nan, 0.0, 0.0, expected"),
                 ("a.inp", sound.replace("\n1, 101, ", "\n1, 999, "),
                  "element 1 has node 999, which is not there"),
                 ("a.inp", sound.replace("C3D4", "COH3D6"), "elements of type COH3D6, expected C3D4, C3D10"),
@@ -222,7 +223,7 @@ class MeshFiles(InFolder):
                 ("a.inp", sound[:sound.index("*Elset") - 1], "end of file within a line"),
                 ("a.inp", sound.replace("*Nset, nset=left\n", "*Nset, nset=left\n9999,\n"),
                  "set left has 9999, which is not there"),
-                ("a.inp", sound.replace("*Node\n", "*Ngen\n"), "*NGEN, expected all nodes and elements"),
+                ("a.inp", sound.replace("*Node,", "*Ngen,"), "*NGEN, expected all nodes and elements"),
                 ("a.inp", sound.replace("*Step", "*Surface, name=s\nEall, S7\n*Step"), "side S7 of a tetra"),
                 ("a.inp", "*Heading\n", "no cells of a plane or of space"),
                 ("a.inp", "", "no cells of a plane or of space"),
@@ -256,7 +257,7 @@ class MeshFiles(InFolder):
         strip = Strip("tetra")
         strip.points = [(x, y, z * 1e-3) for x, y, z in strip.points]
         self.write(medit(strip), "a.mesh")
-        self.write('dimension = 3\ndegree = 2\n' + BODY.replace("%", "a.mesh"))
+        self.write('dimension = 3\ndegree = 2\n' + BODY.replace("%", "a.mesh").replace('"left"', "1").replace('"right"', "3"))
         done = mortier("check", "scene.toml", cwd=self.folder)
         self.assertRegex(done.stdout, r"a.mesh: tetrahedron \d+: warning: 96 tetrahedra with an aspect ratio "
                                       r"above 20 \(regular: 1\), this one has \d+; .* \[sliver\]")
@@ -279,7 +280,7 @@ class MeshFiles(InFolder):
         self.write(scene)
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "o")
         self.assertEqual(warned(run.stderr)[0], "mesh-changed")
-        self.assertIn("a.inp: warning: cells with more corners are cut into tetrahedra; ", run.stderr)
+        self.assertIn("warning: a.inp: cells with more corners are cut into tetrahedra; ", run.stderr)
         final = json.loads(self.read("o/summary.json"))["final"]
         self.assertAlmostEqual(final["von_mises_max"], 6, 9)
         self.assertAlmostEqual(final["von_mises_min"], 6, 9)
