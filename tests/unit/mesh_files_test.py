@@ -257,7 +257,8 @@ class MeshFiles(InFolder):
         strip = Strip("tetra")
         strip.points = [(x, y, z * 1e-3) for x, y, z in strip.points]
         self.write(medit(strip), "a.mesh")
-        self.write('dimension = 3\ndegree = 2\n' + BODY.replace("%", "a.mesh").replace('"left"', "1").replace('"right"', "3"))
+        self.write('dimension = 3\ndegree = 2\n' + BODY.replace("%", "a.mesh")
+                   .replace('"left"', "1").replace('"right"', "3"))
         done = mortier("check", "scene.toml", cwd=self.folder)
         self.assertRegex(done.stdout, r"a.mesh: tetrahedron \d+: warning: 96 tetrahedra with an aspect ratio "
                                       r"above 20 \(regular: 1\), this one has \d+; .* \[sliver\]")

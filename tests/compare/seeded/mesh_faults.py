@@ -108,8 +108,8 @@ def _(case):
                               "".join(f"{k + 1} {k + 2} 1\n{k + 13} {k + 14} 3\n"
                                       f"{4 * k + 1} {4 * k + 5} 4\n{4 * k + 4} {4 * k + 8} 2\n"
                                       for k in range(3)) + "Quadrilaterals\n9\n" +
-                              "".join(f"{v} {v + 1} {v + 5} {v + 4} 1\n" for v in (1, 2, 3, 5, 6, 7, 9, 10, 11)) +
-                              "End\n")
+                              "".join(f"{v} {v + 1} {v + 5} {v + 4} 1\n"
+                                      for v in (1, 2, 3, 5, 6, 7, 9, 10, 11)) + "End\n")
     case.scene = case.scene.replace("upper.mesh", "quads.mesh")
 
 
