@@ -291,6 +291,20 @@ class MeshFiles(InFolder):
         self.mortier("mesh", "convert", "a.inp", "b.mesh")
         self.assertIn("# label ", self.read("b.mesh"))
 
+    def test_surfaces_in_several_groups_of_gmsh(self):
+        self.write('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                   'Physical Volume("cube", 1) = {1};'
+                   'Physical Surface("all", 2) = {1:6}; Physical Surface("left", 3) = {1};\n'
+                   'Physical Surface("right", 4) = {2};\n', "a.geo")
+        self.write("dimension = 3\n" + BODY.replace('"%"', '{ file = "a.geo", size = 0.5 }')
+                   .replace("[time]", POINTS + "[time]"))
+        if "this build is without" in mortier("mesh", "info", "a.geo", cwd=self.folder).stderr:
+            return
+        self.mortier("run", "scene.toml", "--quiet", "--out", "o")
+        self.assertAlmostEqual(json.loads(self.read("o/summary.json"))["final"]["von_mises_min"], 6, 9)
+        self.refused("is in the groups all and left, and the scene names both", "run", "scene.toml", "--set",
+                     "body.a.boundary.right.label=all")
+
     def test_parts_of_abaqus(self):
         # Two parts with the same numbers, one of them moved; sides by a surface.
         part = inp(Strip("triangle"), "CPS3", lambda text: text[text.index("*NODE"):text.index("*Material")])
