@@ -80,18 +80,19 @@ class Archive {
     m.resize(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
     raw(m.data(), m.size() * sizeof(double));
   }
-  template <class T>
-  void take(std::map<std::string, T>& values) {
+  template <class Key, class T>
+  void take(std::map<Key, T>& values) {
     uint64_t n = size(values.size());
     if constexpr (reads) {
-      for (std::string key; n > 0; --n) {
+      for (; n > 0; --n) {
+        Key key{};
         take(key);
         take(values[key]);
       }
     } else {
       for (auto& [key, value] : values) {
-        std::string name = key;
-        (*this)(name, value);
+        Key copy = key;
+        (*this)(copy, value);
       }
     }
   }

@@ -38,23 +38,21 @@ namespace {
 
 #ifdef MORTIER_ARCHITECTURE
 
-/// From here on this process can neither start programs, nor change files, nor reach other processes.
-bool confine() {
+/// From here on this process can neither start others, nor change files, nor reach other processes.
+/// \param becomes  whether it may become a program
+bool confine(bool becomes) {
   static constexpr int refused[] = {
 #ifdef __NR_open
-      __NR_creat,     __NR_unlink,    __NR_rename,           __NR_mkdir,
-      __NR_rmdir,     __NR_link,      __NR_symlink,          __NR_mknod,
-      __NR_chmod,     __NR_chown,     __NR_lchown,           __NR_utime,
+      __NR_creat,     __NR_unlink,    __NR_rename,   __NR_mkdir,     __NR_rmdir,    __NR_link,
+      __NR_symlink,   __NR_mknod,     __NR_chmod,    __NR_chown,     __NR_lchown,   __NR_utime,
       __NR_utimes,    __NR_futimesat,
 #endif
 #ifdef __NR_renameat
       __NR_renameat,
 #endif
-      __NR_execve,    __NR_execveat,  __NR_openat2,          __NR_unlinkat,
-      __NR_renameat2, __NR_mkdirat,   __NR_linkat,           __NR_symlinkat,
-      __NR_mknodat,   __NR_truncate,  __NR_fchmod,           __NR_fchmodat,
-      __NR_fchown,    __NR_fchownat,  __NR_utimensat,        __NR_socket,
-      __NR_kill,      __NR_ptrace,    __NR_process_vm_writev};
+      __NR_execveat,  __NR_openat2,   __NR_unlinkat, __NR_renameat2, __NR_mkdirat,  __NR_linkat,
+      __NR_symlinkat, __NR_mknodat,   __NR_truncate, __NR_fchmod,    __NR_fchmodat, __NR_fchown,
+      __NR_fchownat,  __NR_utimensat, __NR_socket,   __NR_kill,      __NR_ptrace,   __NR_process_vm_writev};
   const auto load = [](size_t offset) -> sock_filter {
     return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<uint32_t>(offset));
   };
@@ -65,9 +63,12 @@ bool confine() {
                                   load(offsetof(seccomp_data, nr))};
   constexpr uint32_t otherNumbers = 0x40000000;  // of the x32 interface
   filter.insert(filter.end(), {BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, otherNumbers, 0, 1), refuse});
-  for (const int number : refused)
+  const auto refuseCall = [&](int number) {
     filter.insert(filter.end(),
                   {BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<uint32_t>(number), 0, 1), refuse});
+  };
+  for (const int number : refused) refuseCall(number);
+  if (!becomes) refuseCall(__NR_execve);
   const auto readOnly = [&](int number, int flags) {
     filter.insert(
         filter.end(),
@@ -87,7 +88,7 @@ bool confine() {
 
 #else
 
-bool confine() {
+bool confine(bool /*becomes*/) {
   return true;
 }
 
@@ -100,7 +101,7 @@ constexpr char isMemory = 'm';
 /// The answer of the child: what it is, and the bytes.
 std::string answerOf(const std::function<std::string()>& work) {
   try {
-    if (!confine()) return isError + std::string(": cannot be confined: ") + std::strerror(errno);
+    if (!confine(false)) return isError + std::string(": cannot be confined: ") + std::strerror(errno);
     return isResult + work();
   } catch (const std::bad_alloc&) {
     return {isMemory};
@@ -109,17 +110,20 @@ std::string answerOf(const std::function<std::string()>& work) {
   }
 }
 
-[[noreturn]] void runChild(int pipe, const std::function<std::string()>& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, file);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  const std::string answer = answerOf(work);
+void writeAnswer(int pipe, const std::string& answer) {
   for (std::string_view left = answer; !left.empty();) {
     const ssize_t n = write(pipe, left.data(), left.size());
     if (n < 0 && errno != EINTR) break;
     left.remove_prefix(n < 0 ? 0 : static_cast<size_t>(n));
   }
+}
+
+[[noreturn]] void runChild(int pipe, const std::function<void(int)>& child) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, file);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  child(pipe);
   _exit(0);
 }
 
@@ -127,6 +131,23 @@ std::string answerOf(const std::function<std::string()>& work) {
 
 ChildProcess::ChildProcess(const std::function<std::string()>& work, std::string subject)
     : subject_(std::move(subject)) {
+  begin([&](int pipe) { writeAnswer(pipe, answerOf(work)); });
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& program, std::string subject)
+    : subject_(std::move(subject)) {
+  std::vector<std::string> words = program;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  begin([&](int pipe) {
+    dup2(pipe, STDOUT_FILENO);
+    if (confine(true)) execvp(arguments.front(), arguments.data());
+    writeAnswer(pipe, isError + (": " + program.front()) + ": " + std::strerror(errno));
+  });
+}
+
+void ChildProcess::begin(const std::function<void(int)>& child) {
   // What another one writes into would stay open in this one.
   static std::mutex oneAtATime;
   const std::scoped_lock alone(oneAtATime);
@@ -134,7 +155,7 @@ ChildProcess::ChildProcess(const std::function<std::string()>& work, std::string
   const auto cannot = [&] { throw OutputError(subject_ + ": no process for it: " + std::strerror(errno)); };
   if (pipe2(ends, O_CLOEXEC) != 0) cannot();
   child_ = fork();
-  if (child_ == 0) runChild(ends[1], work);
+  if (child_ == 0) runChild(ends[1], child);
   close(ends[1]);
   pipe_ = ends[0];
   if (child_ > 0) return;

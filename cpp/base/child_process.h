@@ -1,10 +1,11 @@
-// Foreign code in a process of its own: a crash of it is an error message, and it can neither start programs
+// Foreign code in a process of its own: a crash of it is an error message, and it can neither start processes
 // nor change files (Linux: a seccomp filter; elsewhere only the crash is caught).
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace mortier {
 
@@ -14,6 +15,9 @@ class ChildProcess {
   /// \param subject  with which the message of a crash begins, e.g. `plate.msh: Gmsh`
   /// \throws OutputError where there is no process for it
   ChildProcess(const std::function<std::string()>& work, std::string subject);
+  /// The same of a program, by its words. It writes its answer to standard output: a letter, which is r
+  /// before the bytes that it gives, e before what is wrong with its input, m where memory does not suffice.
+  ChildProcess(const std::vector<std::string>& program, std::string subject);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   /// Kills it where its answer was not waited for.
@@ -25,6 +29,7 @@ class ChildProcess {
   std::string answer(double seconds = std::numeric_limits<double>::infinity());
 
  private:
+  void begin(const std::function<void(int pipe)>& child);
   int end();
 
   std::string subject_;

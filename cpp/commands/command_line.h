@@ -1,7 +1,6 @@
 // The commands of the program: each function adds one, with its options, to the command line.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -62,11 +61,5 @@ void warn(const std::string& text);
 /// Writes out the rest of standard output. A reader that is gone (`mortier run ... | head`) is no error.
 /// \throws OutputError when it cannot be written.
 void finishStandardOutput();
-
-/// The folder `name` that comes with the program and holds `file`: in one of `starts`, the program's folder
-/// or any folder above them, there also under share/mortier; else in the sources that the program was built
-/// from.
-std::optional<std::filesystem::path> shippedFolder(const std::string& name, const std::string& file,
-                                                   const std::vector<std::filesystem::path>& starts = {});
 
 }  // namespace mortier

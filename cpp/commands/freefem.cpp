@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/shipped.h"
 #include "base/whole_file.h"
 #include "commands/command_line.h"
 #include "contact/smooth_part.h"
@@ -36,9 +37,11 @@ std::string methodFolder(const std::string& scene) {
   return fs::proximate(*folder).generic_string();
 }
 
-/// FreeFEM reads whole Medit files.
-bool isReadByFreefem(const MeshSource& mesh) {
-  return !mesh.shape && !mesh.inSpace && !mesh.sweep && !isGmshFile(mesh.path) && mesh.regions.empty();
+/// FreeFEM reads whole Medit files of triangles or tetrahedra.
+template <class Mesh>
+bool isReadByFreefem(const MeshSource& source, const Mesh& mesh) {
+  return !source.shape && !source.inSpace && !source.sweep && isMeditFile(source.path) &&
+         source.regions.empty() && mesh.changed.empty();
 }
 
 /// `meshFile`: as FreeFEM opens it.
@@ -274,7 +277,9 @@ int writeFreefem(const FreefemOptions& command) {
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodyDescription& body = scene.bodies[b];
     meshFiles.push_back(body.mesh.path);
-    if (isReadByFreefem(body.mesh)) continue;
+    if (scene.inSpace() ? isReadByFreefem(body.mesh, model.bodies[b].space()->mesh())
+                        : isReadByFreefem(body.mesh, model.bodies[b].mesh()))
+      continue;
     if (command.file.empty())
       throw InputError(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh.path +
                        ", expected a file for the script, beside which the mesh is written for FreeFEM");

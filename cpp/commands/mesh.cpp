@@ -82,15 +82,8 @@ std::string sizeOf(const TriangleMesh& mesh) {
   return counted(mesh.vertices.size(), "vertex") + ", " + counted(mesh.triangles.size(), "triangle");
 }
 
-/// \tparam corners  of a triangle 3, of a tetrahedron 4
-template <int corners>
-std::string countedElements(size_t n) {
-  if (corners == 3) return counted(n, "triangle");
-  return std::to_string(n) + (n == 1 ? " tetrahedron" : " tetrahedra");
-}
-
 std::string sizeOf(const TetrahedronMesh& mesh) {
-  return counted(mesh.vertices.size(), "vertex") + ", " + countedElements<4>(mesh.tetrahedra.size());
+  return counted(mesh.vertices.size(), "vertex") + ", " + counted(mesh.tetrahedra.size(), "tetrahedron");
 }
 
 /// ", name" of a label that has one.
@@ -154,10 +147,14 @@ int withMesh(const MeshSource& source, const Use& use) {
   std::optional<TetrahedronMesh> space;
   try {
     return use(readMesh(source));
-  } catch (const InputError&) {
+  } catch (const InputError& inPlane) {
+    const auto says = [](const InputError& error, const char* words) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    };
     try {
       space = readSpaceMesh(source);
-    } catch (const InputError&) {
+    } catch (const InputError& inSpace) {
+      if (says(inPlane, "dimension = 3") && !says(inSpace, "no tetrahedra")) throw;
     }
     if (!space) throw;
   }
@@ -172,13 +169,12 @@ int convertMesh(const MeshSource& source, const std::string& file) {
   });
 }
 
-template <int corners>
-void printRegions(const std::vector<int>& regions, const std::map<std::string, int>& names) {
+void printRegions(const std::vector<int>& regions, const std::map<std::string, int>& names,
+                  const char* element) {
   std::map<int, int> counts;
   for (const int region : regions) ++counts[region];
   for (const auto& [region, count] : counts)
-    std::printf("region %-4d %s%s\n", region, countedElements<corners>(count).c_str(),
-                named(names, region).c_str());
+    std::printf("region %-4d %s%s\n", region, counted(count, element).c_str(), named(names, region).c_str());
 }
 
 /// "x 0 .. 2, y 1", a coordinate that does not vary alone.
@@ -218,7 +214,7 @@ int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
     std::printf("label %-5d %s, area %.9g%s: %s\n", label, counted(triangles.size(), "triangle").c_str(),
                 area, named(mesh.labelNames, label).c_str(), extentsOf(around, size).c_str());
   }
-  printRegions<4>(mesh.regions, mesh.regionNames);
+  printRegions(mesh.regions, mesh.regionNames, "tetrahedron");
   return exitDone;
 }
 
@@ -255,7 +251,7 @@ int describeMesh(const std::string& file, const TriangleMesh& mesh) {
   for (const auto& [label, side] : sides)
     std::printf("label %-5d %s, length %.9g%s: %s\n", label, counted(side.edges, "edge").c_str(), side.length,
                 named(mesh.labelNames, label).c_str(), extentsOf(side.around, size).c_str());
-  printRegions<3>(mesh.regions, mesh.regionNames);
+  printRegions(mesh.regions, mesh.regionNames, "triangle");
   return exitDone;
 }
 
@@ -323,12 +319,13 @@ Command addMesh(CLI::App& app) {
 
   const auto file = std::make_shared<std::string>();
   CLI::App* info = mesh.add_subcommand("info", "counts, labels, extents, worst triangle");
-  info->add_option("FILE", *file, "Medit .mesh file")->required();
+  info->add_option("FILE", *file, "mesh or geometry of any kind that is read")->required();
 
   const auto source = std::make_shared<MeshSource>();
   CLI::App* convert =
       mesh.add_subcommand("convert", "any mesh or geometry that a scene can name, as a Medit .mesh file");
-  convert->add_option("FROM", source->path, "Medit .mesh file, or a file for Gmsh")->required();
+  convert->add_option("FROM", source->path, "mesh or geometry of any kind that is read (docs/scene.md)")
+      ->required();
   convert->add_option("TO", *file, "Medit .mesh file to write")->required();
   convert->add_option("--region", source->regions, "regions to keep, by name or number");
   convert->add_option("--size", source->size, "longest edge of a geometry that is meshed [m]")

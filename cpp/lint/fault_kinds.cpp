@@ -19,7 +19,7 @@ const std::vector<FaultKind>& faultKinds() {
        "more "
        "memory"},
       // Meshes that cannot be used.
-      {"mesh-file", error, "a mesh cannot be read", "write it again as Medit .mesh, ASCII, two-dimensional"},
+      {"mesh-file", error, "a mesh cannot be read", "see docs/scene.md for the files that are read"},
       {"clockwise-triangle", error, "a triangle runs clockwise", "exchange two of its vertices"},
       {"degenerate-triangle", error, "the corners of a triangle lie in line",
        "remove the triangle, or move one of its corners"},
@@ -44,7 +44,9 @@ const std::vector<FaultKind>& faultKinds() {
        "split the triangle beyond the edge there: the mesh must be conforming"},
       {"mesh-overlaps-itself", warning, "the boundary of a mesh crosses itself",
        "mesh again: parts of the body cover each other"},
-      {"sliver", warning, "triangles are very flat", "mesh again with a lower bound on angles"},
+      {"sliver", warning, "triangles or tetrahedra are very flat", "mesh again with a lower bound on angles"},
+      {"mesh-changed", warning, "cells of a file are cut, or lose the nodes on their edges",
+       "write linear triangles or tetrahedra, with degree = 2 for quadratic displacements, or allow it"},
       {"size-jump", warning, "neighbouring triangles differ very much in size",
        "grade the mesh over several layers of triangles"},
       {"mesh-coarse", warning, "a mesh has a handful of triangles", "refine the mesh"},

@@ -145,6 +145,11 @@ void build(ResolvedScene resolved, LintReport& report) {
   }
 }
 
+void checkInSpace(const ResolvedScene& resolved, Faults& faults) {
+  lintMeshes(resolved.spaceMeshes, faults);
+  lintVolumes(resolved.description, faults);
+}
+
 /// Meshes, places, volumes and the model: checks of data, of contact and of deformations are of the plane.
 void lintInSpace(LintReport& report) {
   ResolvedScene resolved;
@@ -154,7 +159,7 @@ void lintInSpace(LintReport& report) {
     return addError(error, "mesh-file", report.faults);
   }
   report.scene = resolved.description;
-  lintVolumes(*report.scene, report.faults);
+  checkInSpace(resolved, report.faults);
   build(std::move(resolved), report);
 }
 
@@ -185,7 +190,7 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
     lintInSpace(report);
     return report;
   }
-  std::vector<const TriangleMesh*> known;
+  std::vector<TriangleMesh*> known;
   std::vector<TriangleMesh> meshes;
   meshes.reserve(scene.bodies.size());
   for (const BodyDescription& body : scene.bodies) {
@@ -196,9 +201,10 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
       addError(error, "mesh-file", report.faults);
     }
   }
-  resolveWhatCanBe(scene, known);
+  for (const FaultError& error : resolveWhatCanBe(scene, known))
+    addError(error, "label-twice", report.faults);
   const SceneDescription solved = asSolved(scene);
-  runChecks(inputOf(solved, known), report.faults);
+  runChecks(inputOf(solved, {known.begin(), known.end()}), report.faults);
   if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
   dropConsequences(report.faults);
   return report;
@@ -208,7 +214,7 @@ Faults lintResolved(const ResolvedScene& resolved) {
   const SceneDescription scene = asSolved(resolved.description);
   Faults faults(scene.allowed);
   if (scene.inSpace()) {
-    lintVolumes(scene, faults);
+    checkInSpace(resolved, faults);
     return faults;
   }
   std::vector<const TriangleMesh*> meshes;

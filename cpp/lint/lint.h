@@ -56,6 +56,8 @@ Point supportedMotion(const LintInput& input, const ContactDescription& contact,
 
 // What the linter looks for, one file each.
 void lintMeshes(const LintInput& input, Faults& faults);
+/// The same of bodies in space.
+void lintMeshes(const std::vector<TetrahedronMesh>& meshes, Faults& faults);
 void lintLabels(const LintInput& input, Faults& faults);
 void lintContacts(const LintInput& input, Faults& faults);
 void lintDeformations(const LintInput& input, Faults& faults);

@@ -151,14 +151,21 @@ void findCrossings(const TriangleMesh& mesh, const Topology& topology, const Seg
   }
 }
 
-void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool refined, Faults& faults) {
-  constexpr double flat = 20;  // of the aspect ratio; 1 is best
-  constexpr double jump = 64;  // of the area between neighbours
-  constexpr size_t few = 8;
+/// What the reader of a file made of its cells.
+template <class Mesh>
+void findChanges(const Mesh& mesh, Faults& faults) {
+  if (!mesh.changed.empty()) faults.add("mesh-changed", mesh.name, mesh.changed);
+}
+
+/// \param elements  how many there are  \param word  for one  \param best  the word for one whose ratio is 1
+template <class Mesh>
+void findSlivers(const Mesh& mesh, size_t elements, const std::string& word, const std::string& best,
+                 Faults& faults) {
+  constexpr double flat = 20;  // of the aspect ratio
   size_t slivers = 0;
   double worst = flat;
   int where = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+  for (int t = 0; t < static_cast<int>(elements); ++t) {
     const double ratio = aspectRatio(mesh, t);
     slivers += ratio > flat ? 1 : 0;
     if (ratio > worst) {
@@ -167,11 +174,18 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool r
     }
   }
   if (slivers > 0)
-    faults.add("sliver", triangle(mesh, where),
-               counted(slivers, "triangle") + " with an aspect ratio above " + shortest(flat) +
-                   " (equilateral: 1), this one has " + shortest(std::round(worst)));
+    faults.add("sliver", mesh.name + ": " + word + " " + std::to_string(where + 1),
+               counted(slivers, word) + " with an aspect ratio above " + shortest(flat) + " (" + best +
+                   ": 1), this one has " + shortest(std::round(worst)));
+}
+
+void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool refined, Faults& faults) {
+  constexpr double jump = 64;  // of the area between neighbours
+  constexpr size_t few = 8;
+  findSlivers(mesh, mesh.triangles.size(), "triangle", "equilateral", faults);
   size_t jumps = 0;
-  worst = jump;
+  double worst = jump;
+  int where = 0;
   for (const auto& [a, b] : topology.neighbours) {
     const double ratio = doubleArea(mesh, a) / doubleArea(mesh, b);
     jumps += std::max(ratio, 1 / ratio) > jump ? 1 : 0;
@@ -206,6 +220,7 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     if (input.meshes[b] == nullptr || input.scene.bodies[b].isTool()) continue;
     const TriangleMesh& mesh = *input.meshes[b];
     const Topology& topology = input.topologies[b];
+    findChanges(mesh, faults);
     findParts(mesh, faults);
     const SegmentTree tree(mesh, topology);
     findDoubles(mesh, topology, tree, faults);
@@ -213,6 +228,13 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     findCrossings(mesh, topology, tree, faults);
     findBadTriangles(mesh, topology, refinesMeshes(input.scene), faults);
     findLostDigits(mesh, input.scene.units.length, faults);
+  }
+}
+
+void lintMeshes(const std::vector<TetrahedronMesh>& meshes, Faults& faults) {
+  for (const TetrahedronMesh& mesh : meshes) {
+    findChanges(mesh, faults);
+    findSlivers(mesh, mesh.tetrahedra.size(), "tetrahedron", "regular", faults);
   }
 }
 

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "base/archive.h"
 #include "base/child_process.h"
 #include "base/error.h"
+#include "mesh/cut_cells.h"
 #include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
@@ -21,15 +22,6 @@
 #endif
 
 namespace mortier {
-
-bool isGmshFile(const std::string& path) {
-  static const std::set<std::string> known{".msh", ".geo",  ".geo_unrolled", ".brep", ".step",
-                                           ".stp", ".iges", ".igs",          ".med",  ".unv"};
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return known.count(extension) > 0;
-}
 
 #ifndef MORTIER_GMSH
 
@@ -58,16 +50,17 @@ TetrahedronMesh readSpaceGmsh(const MeshSource& source, double) {
 template <class Archive>
 void visitMembers(Archive& archive, TriangleMesh& mesh) {
   auto& [name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
-         edgeMiddles, edgeCurves] = mesh;
+         edgeMiddles, edgeCurves, sharedLabels, sharedRegions, changed] = mesh;
   archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
-          edgeMiddles, edgeCurves);
+          edgeMiddles, edgeCurves, sharedLabels, sharedRegions, changed);
 }
 
 template <class Archive>
 void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
-  auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames] =
-      mesh;
-  archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames);
+  auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
+         sharedLabels, sharedRegions, changed] = mesh;
+  archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
+          sharedLabels, sharedRegions, changed);
 }
 
 template <class Archive>
@@ -162,23 +155,44 @@ PlaneNodes planeNodes(const Gmsh& gmsh) {
   return result;
 }
 
-/// Opens the file, meshes it where it is a geometry. \throws InputError where it has other elements than
-/// those of a type of Gmsh.
-void open(const Gmsh& gmsh, const MeshSource& source, int dimension, int type, const char* expected) {
+/// Opens the file, and meshes it where it is a geometry.
+void open(const Gmsh& gmsh, const MeshSource& source, int dimension) {
   gmsh.call<decltype(gmshOpen)>("gmshOpen", source.path.c_str());
   if (elementTypes(gmsh, dimension).empty())
     gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", dimension);
   else if (source.size > 0)
     throw InputError(source.path + ": size, expected only for a geometry: this file is a mesh");
-  for (const int other : elementTypes(gmsh, dimension))
-    if (other != type)
-      throw InputError(source.path + ": elements of Gmsh's type " + std::to_string(other) + ", expected " +
-                       expected + " (type " + std::to_string(type) + ") only");
 }
 
-constexpr int lineType = 1;
-constexpr int triangleType = 2;
-constexpr int tetrahedronType = 4;
+/// Cells of Gmsh up to degree 2; their corners are the first of their nodes.
+struct CellType {
+  int type;
+  size_t nodes, corners;
+  bool quadratic;
+};
+constexpr CellType cellTypes[] = {{1, 2, 2, false},  {2, 3, 3, false},  {3, 4, 4, false},  {4, 4, 4, false},
+                                  {5, 8, 8, false},  {6, 6, 6, false},  {7, 5, 5, false},  {8, 3, 2, true},
+                                  {9, 6, 3, true},   {10, 9, 4, true},  {11, 10, 4, true}, {12, 27, 8, true},
+                                  {13, 18, 6, true}, {14, 14, 5, true}, {16, 8, 4, true},  {17, 20, 8, true},
+                                  {18, 15, 6, true}, {19, 13, 5, true}};
+
+/// Node tags of the corners of all cells of a dimension on an entity: use(type, corners).
+template <class Use>
+void forCornersOn(const Gmsh& gmsh, int dimension, int entity, const Use& use) {
+  for (const int type : elementTypes(gmsh, dimension)) {
+    const auto* const known = std::find_if(std::begin(cellTypes), std::end(cellTypes),
+                                           [&](const CellType& each) { return each.type == type; });
+    if (known == std::end(cellTypes))
+      throw InputError(gmsh.path() + ": elements of Gmsh's type " + std::to_string(type) +
+                       ", expected linear or quadratic triangles, quadrangles, tetrahedra, hexahedra, prisms "
+                       "or pyramids");
+    const std::vector<size_t> nodes = elements(gmsh, type, entity);
+    std::vector<size_t> corners;
+    for (size_t i = 0; i + known->nodes <= nodes.size(); i += known->nodes)
+      for (size_t k = 0; k < known->corners; ++k) corners.push_back(nodes[i + k]);
+    use(*known, corners);
+  }
+}
 
 /// Numbers of the vertices of a mesh by the tags of Gmsh's nodes; a node becomes a vertex where it is first
 /// asked for.
@@ -205,89 +219,85 @@ class VertexNumbers {
   std::map<size_t, int> numbers_;
 };
 
+/// Cells of the dimension of the mesh, or one lower, as simplices with the numbers of their groups.
+template <size_t n, class Numbers>
+ChangedCells addCells(const Gmsh& gmsh, int dimension, Numbers& vertex,
+                      std::vector<std::array<int, n> >& simplices, std::vector<int>& numbers,
+                      std::map<std::string, int>& names) {
+  ChangedCells changed;
+  for (const Group& group : groups(gmsh, dimension)) {
+    if (!group.name.empty()) names[group.name] = group.number;
+    for (const int entity : group.entities)
+      forCornersOn(gmsh, dimension, entity, [&](const CellType& type, const std::vector<size_t>& corners) {
+        for (size_t i = 0; i < corners.size(); i += type.corners) {
+          std::vector<int> cell;
+          for (size_t k = 0; k < type.corners; ++k) cell.push_back(vertex(corners[i + k]));
+          cutCell(cell, simplices);
+        }
+        numbers.resize(simplices.size(), group.number);
+        changed.quadratic = changed.quadratic || (type.quadratic && !corners.empty());
+        changed.cut = changed.cut || (type.corners != n && !corners.empty());
+      });
+  }
+  return changed;
+}
+
 TriangleMesh planeMesh(const Gmsh& gmsh, const MeshSource& source) {
-  open(gmsh, source, 2, triangleType, "linear triangles");
+  open(gmsh, source, 2);
   const PlaneNodes nodes = planeNodes(gmsh);
   TriangleMesh mesh;
+  mesh.name = source.path;
   VertexNumbers vertex(source.path, nodes.at, mesh.vertices);
-  for (const Group& group : groups(gmsh, 2)) {
-    if (!group.name.empty()) mesh.regionNames[group.name] = group.number;
-    for (const int entity : group.entities) {
-      const std::vector<size_t> corners = elements(gmsh, triangleType, entity);
-      for (size_t i = 0; i + 2 < corners.size(); i += 3) {
-        mesh.triangles.push_back({vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])});
-        mesh.regions.push_back(group.number);
-        // Surfaces of a geometry may be turned over.
-        if (doubleArea(mesh, static_cast<int>(mesh.triangles.size()) - 1) < 0)
-          std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
-      }
-    }
-  }
+  mesh.changed = addCells(gmsh, 2, vertex, mesh.triangles, mesh.regions, mesh.regionNames).text("triangles");
+  // Surfaces of a geometry may be turned over.
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (doubleArea(mesh, static_cast<int>(t)) < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  const auto used = static_cast<int>(mesh.vertices.size());
   for (const Group& group : groups(gmsh, 1)) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
-    for (const int entity : group.entities) {
-      const std::vector<size_t> ends = elements(gmsh, lineType, entity);
-      for (size_t i = 0; i + 1 < ends.size(); i += 2) {
-        mesh.boundaryEdges.push_back({vertex(ends[i]), vertex(ends[i + 1])});
-        mesh.boundaryLabels.push_back(group.number);
-      }
-      for (const KnownEdge& edge : knownEdges(gmsh, entity, ends, nodes)) {
-        mesh.edgeMiddles.push_back(edge.middle);
-        mesh.edgeCurves.push_back(edge.curve);
-      }
-    }
+    for (const int entity : group.entities)
+      forCornersOn(gmsh, 1, entity, [&](const CellType& /*line*/, const std::vector<size_t>& ends) {
+        const std::vector<KnownEdge> known = knownEdges(gmsh, entity, ends, nodes);
+        for (size_t i = 0; i + 1 < ends.size(); i += 2) {
+          const std::array<int, 2> edge{vertex(ends[i]), vertex(ends[i + 1])};
+          if (std::max(edge[0], edge[1]) >= used) continue;  // curves of no surface have other vertices
+          mesh.boundaryEdges.push_back(edge);
+          mesh.boundaryLabels.push_back(group.number);
+          mesh.edgeMiddles.push_back(known[i / 2].middle);
+          mesh.edgeCurves.push_back(known[i / 2].curve);
+        }
+      });
   }
+  mesh.vertices.resize(static_cast<size_t>(used));
   if (std::none_of(mesh.edgeMiddles.begin(), mesh.edgeMiddles.end(),
                    [](const Point& p) { return p.allFinite(); }))
     mesh.edgeMiddles.clear();
   if (std::none_of(mesh.edgeCurves.begin(), mesh.edgeCurves.end(),
                    [](const EdgeCurve& c) { return c.known(); }))
     mesh.edgeCurves.clear();
-  mesh.name = source.path;
-  if (source.regions.empty())
-    dropInnerEdges(mesh);
-  else
-    keepRegions(mesh, source.regions);
-  validate(mesh);
+  takeGroups(mesh, source.regions);
   return mesh;
 }
 
 TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
-  open(gmsh, source, 3, tetrahedronType, "linear tetrahedra");
+  open(gmsh, source, 3);
   const std::map<size_t, SpacePoint> nodes = nodesOf(gmsh);
   TetrahedronMesh mesh;
-  VertexNumbers vertex(source.path, nodes, mesh.vertices);
-  for (const Group& group : groups(gmsh, 3)) {
-    if (!group.name.empty()) mesh.regionNames[group.name] = group.number;
-    for (const int entity : group.entities) {
-      const std::vector<size_t> corners = elements(gmsh, tetrahedronType, entity);
-      for (size_t i = 0; i + 3 < corners.size(); i += 4) {
-        std::array<int, 4>& added = mesh.tetrahedra.emplace_back();
-        for (size_t k = 0; k < 4; ++k) added[k] = vertex(corners[i + k]);
-        mesh.regions.push_back(group.number);
-      }
-    }
-  }
-  const size_t used = mesh.vertices.size();
-  for (const Group& group : groups(gmsh, 2)) {
-    if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
-    for (const int entity : group.entities) {
-      const std::vector<size_t> corners = elements(gmsh, triangleType, entity);
-      for (size_t i = 0; i + 2 < corners.size(); i += 3) {
-        const std::array<int, 3> added{vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])};
-        if (*std::max_element(added.begin(), added.end()) >= static_cast<int>(used)) continue;
-        mesh.boundaryTriangles.push_back(added);
-        mesh.boundaryLabels.push_back(group.number);
-      }
-    }
-  }
-  mesh.vertices.resize(used);  // surfaces of no volume have others
   mesh.name = source.path;
-  if (source.regions.empty())
-    dropInnerTriangles(mesh);
-  else
-    keepRegions(mesh, source.regions);
-  validate(mesh);
+  VertexNumbers vertex(source.path, nodes, mesh.vertices);
+  mesh.changed =
+      addCells(gmsh, 3, vertex, mesh.tetrahedra, mesh.regions, mesh.regionNames).text("tetrahedra");
+  const auto used = static_cast<int>(mesh.vertices.size());
+  TetrahedronMesh sides;
+  addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames);
+  mesh.vertices.resize(static_cast<size_t>(used));  // surfaces of no volume have others
+  for (size_t i = 0; i < sides.boundaryTriangles.size(); ++i) {
+    const std::array<int, 3>& side = sides.boundaryTriangles[i];
+    if (*std::max_element(side.begin(), side.end()) >= used) continue;
+    mesh.boundaryTriangles.push_back(side);
+    mesh.boundaryLabels.push_back(sides.boundaryLabels[i]);
+  }
+  takeGroups(mesh, source.regions);
   return mesh;
 }
 

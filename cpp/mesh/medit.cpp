@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "mesh/cut_cells.h"
+#include "mesh/medit_parser.h"
 #include "mesh/medit_words.h"
 #include "mesh/regions.h"
 
@@ -41,36 +43,65 @@ constexpr SkippedSection skippedSections[] = {
     {"EdgeOnGeometricEdge", 2},
 };
 
-constexpr std::array<std::string_view, 4> foreignElements{"Quadrilaterals", "Hexahedra", "Prisms",
-                                                          "Pyramids"};
+/// Sections of sides and elements.
+struct ItemKind {
+  std::string_view keyword;
+  int corners;
+  int dimension;
+};
+constexpr std::array<ItemKind, 7> itemKinds{{{"Edges", 2, 1},
+                                             {"Triangles", 3, 2},
+                                             {"Quadrilaterals", 4, 2},
+                                             {"Tetrahedra", 4, 3},
+                                             {"Prisms", 6, 3},
+                                             {"Pyramids", 5, 3},
+                                             {"Hexahedra", 8, 3}}};
 
 class Parser {
  public:
   /// \param solid  whether it is of tetrahedra
-  Parser(const std::string& path, std::string_view text, bool solid) : words_(path, text), solid_(solid) {
-    mesh_.name = solidMesh_.name = path;
-  }
+  Parser(const MeditText& text, bool solid) : text_(text), words_(text_.path, text_.text), solid_(solid) {}
 
   TriangleMesh parse(const std::vector<std::string>& regions) {
     readAll();
-    mesh_.labelNames = std::move(labelNames_);
-    mesh_.regionNames = std::move(regionNames_);
-    if (!regions.empty() && verticesAreThere()) {
-      keepRegions(mesh_, regions);
-      validate(mesh_);
-      return std::move(mesh_);
+    TriangleMesh mesh;
+    fill(mesh);
+    for (const SpacePoint& place : places_) mesh.vertices.push_back(place.head<2>());
+    ChangedCells changed{false, text_.quadratic > 0};
+    ChangedCells ofSides;
+    mesh.regions = addItems(2, mesh.triangles, changed);
+    mesh.boundaryLabels = addItems(1, mesh.boundaryEdges, ofSides);
+    mesh.changed = changed.text("triangles");
+    if (text_.converted && verticesAreThere(mesh)) {
+      for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (doubleArea(mesh, static_cast<int>(t)) < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+      takeGroups(mesh, regions);
+    } else if (!regions.empty() && verticesAreThere(mesh)) {
+      keepRegions(mesh, regions);
+      validate(mesh);
+    } else {
+      validate(mesh, [this](MeshPart part, int index) { return words_.place(offset(part, index)); });
     }
-    validate(mesh_, [this](MeshPart part, int index) { return words_.place(offset(part, index)); });
-    return std::move(mesh_);
+    return mesh;
   }
 
   TetrahedronMesh parseSolid(const std::vector<std::string>& regions) {
     readAll();
-    solidMesh_.labelNames = std::move(labelNames_);
-    solidMesh_.regionNames = std::move(regionNames_);
-    if (!regions.empty()) keepRegions(solidMesh_, regions);
-    validate(solidMesh_);
-    return std::move(solidMesh_);
+    TetrahedronMesh mesh;
+    fill(mesh);
+    mesh.vertices = std::move(places_);
+    ChangedCells changed{false, text_.quadratic > 0};
+    ChangedCells ofSides;
+    mesh.regions = addItems(3, mesh.tetrahedra, changed);
+    mesh.boundaryLabels = addItems(2, mesh.boundaryTriangles, ofSides);
+    mesh.changed = changed.text("tetrahedra");
+    if (text_.converted) {
+      takeGroups(mesh, regions);
+    } else {
+      if (!regions.empty()) keepRegions(mesh, regions);
+      validate(mesh);
+    }
+    return mesh;
   }
 
  private:
@@ -78,14 +109,50 @@ class Parser {
     size_t begin = 0;  // offset of the first item; 0 when the file has no such section
     int width = 0;     // numbers of an item
   };
+  /// Sides or elements of a kind, from 0: all corners one after the other.
+  struct Items {
+    Section section;
+    std::vector<int> corners, labels;
+  };
 
-  size_t offset(MeshPart part, int index) const {
-    const Section& section = part == MeshPart::vertex     ? vertices_
-                             : part == MeshPart::triangle ? triangles_
-                             : part == MeshPart::edge     ? edges_
-                                                          : Section();
-    if (section.begin == 0) return words_.lastEnd();
-    return words_.offset(section.begin, size_t(index) * size_t(section.width));
+  template <class Mesh>
+  void fill(Mesh& mesh) {
+    mesh.name = text_.path;
+    mesh.labelNames = std::move(labelNames_);
+    mesh.regionNames = std::move(regionNames_);
+  }
+
+  /// Cuts the items of a dimension. \returns the labels of what they become
+  template <size_t n>
+  std::vector<int> addItems(int dimension, std::vector<std::array<int, n>>& simplices,
+                            ChangedCells& changed) {
+    std::vector<int> labels;
+    for (size_t k = 0; k < itemKinds.size(); ++k) {
+      if (itemKinds[k].dimension != dimension) continue;
+      const Items& items = items_[k];
+      const auto corners = static_cast<size_t>(itemKinds[k].corners);
+      for (size_t i = 0; i < items.labels.size(); ++i) {
+        const std::span<const int> cell(&items.corners[i * corners], corners);
+        if constexpr (n == 2)
+          simplices.push_back({cell[0], cell[1]});
+        else
+          cutCell(cell, simplices);
+        labels.resize(simplices.size(), items.labels[i]);
+        if (dimension == 2) sources_.resize(simplices.size(), {k, i});
+      }
+      changed.cut = changed.cut || (corners != n && !items.labels.empty());
+    }
+    return labels;
+  }
+
+  [[nodiscard]] size_t offset(MeshPart part, int index) const {
+    const Section* section = &vertices_;
+    auto item = static_cast<size_t>(index);
+    if (part == MeshPart::triangle) section = &items_[sources_[item].first].section;
+    if (part == MeshPart::triangle) item = sources_[item].second;
+    if (part == MeshPart::edge) section = &items_[0].section;
+    if (part == MeshPart::whole || section->begin == 0) return words_.lastEnd();
+    return words_.offset(section->begin, item * size_t(section->width));
   }
 
   void readAll() {
@@ -97,17 +164,22 @@ class Parser {
 
   void readHeader() {
     std::string_view found = words_.next();
-    if (found != "MeshVersionFormatted") words_.failAt(found, "MeshVersionFormatted as the first word");
+    if (found != "MeshVersionFormatted")
+      words_.failAt(found, "MeshVersionFormatted as the first word of a Medit file; files of other kinds: " +
+                               otherMeshFiles());
     words_.number<int>("a version number");
     found = words_.next();
     if (found != "Dimension") words_.failAt(found, "Dimension");
     dimension_ = words_.number<int>("a dimension");
     if (dimension_ != 3 && (solid_ || dimension_ != 2))
-      words_.fail(words_.lastEnd() - 1, "Dimension " + std::to_string(dimension_) +
-                                            (solid_ ? ", expected 3" : ", expected 2 or 3"));
+      words_.fail(words_.lastEnd() - 1,
+                  "Dimension " + std::to_string(dimension_) +
+                      (solid_ ? ", expected 3: tetrahedra; a plane mesh becomes a body in space with extrude "
+                                "or revolve"
+                              : ", expected 2 or 3"));
   }
 
-  // Lines after the End of the format (medit.h).
+  // Lines after the End of the format (mesh/read.h).
   void readNames() {
     while (const auto name = words_.nextName()) {
       if (name->of == "label") labelNames_[std::string(name->name)] = name->number;
@@ -115,39 +187,43 @@ class Parser {
     }
   }
 
-  [[nodiscard]] bool verticesAreThere() const {
-    const int n = int(mesh_.vertices.size());
+  static bool verticesAreThere(const TriangleMesh& mesh) {
+    const int n = int(mesh.vertices.size());
     const auto isThere = [n](int v) { return v < n; };
-    return std::all_of(mesh_.triangles.begin(), mesh_.triangles.end(),
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                        [&](const auto& t) { return std::all_of(t.begin(), t.end(), isThere); }) &&
-           std::all_of(mesh_.boundaryEdges.begin(), mesh_.boundaryEdges.end(),
+           std::all_of(mesh.boundaryEdges.begin(), mesh.boundaryEdges.end(),
                        [&](const auto& e) { return std::all_of(e.begin(), e.end(), isThere); });
+  }
+
+  /// Whether there are triangles or more, after which a file may end without End, as FreeFEM reads it.
+  [[nodiscard]] bool hasElements() const {
+    return std::any_of(itemKinds.begin(), itemKinds.end(), [&](const ItemKind& kind) {
+      return kind.dimension > 1 && !items_[size_t(&kind - itemKinds.data())].labels.empty();
+    });
   }
 
   // Returns whether another section may follow.
   bool readSection() {
+    const size_t before = words_.lastEnd();
     const std::string_view keyword = words_.next();
     if (keyword == "End") return false;
+    if (keyword.empty() && hasElements()) {
+      if (before == text_.text.size())
+        words_.fail(before, "end of file within a line, expected a line break or End after the last number");
+      words_.rewind();
+      return false;
+    }
+    const auto* const kind = std::find_if(itemKinds.begin(), itemKinds.end(),
+                                          [&](const ItemKind& each) { return each.keyword == keyword; });
     if (keyword == "Vertices") {
       readVertices();
-    } else if (keyword == "Triangles") {
-      readTriangles();
-    } else if (keyword == "Edges") {
-      readEdges();
-    } else if (keyword == "Tetrahedra" && solid_) {
-      readTetrahedra();
+    } else if (kind != itemKinds.end()) {
+      readItems(*kind, items_[size_t(kind - itemKinds.begin())]);
     } else if (keyword == "Identifier" || keyword == "Geometry") {
       words_.skipString();
     } else if (keyword == "AngleOfCornerBound" || keyword == "MaximalAngleOfCorner") {
       words_.number<double>("an angle");
-    } else if (keyword == "Tetrahedra" ||
-               std::count(foreignElements.begin(), foreignElements.end(), keyword)) {
-      const int n = count(keyword, 1);
-      if (n > 0)
-        words_.fail(words_.lastEnd(), std::to_string(n) + " " + std::string(keyword) + ", expected " +
-                                          (solid_                    ? "tetrahedra only"
-                                           : keyword == "Tetrahedra" ? "triangles only, or dimension = 3"
-                                                                     : "triangles only"));
     } else {
       skipSection(keyword);
     }
@@ -157,7 +233,9 @@ class Parser {
   void skipSection(std::string_view keyword) {
     const auto* const section = std::find_if(std::begin(skippedSections), std::end(skippedSections),
                                              [&](const auto& s) { return s.keyword == keyword; });
-    if (section == std::end(skippedSections)) words_.failAt(keyword, "Vertices, Edges, Triangles or End");
+    if (section == std::end(skippedSections))
+      words_.failAt(keyword,
+                    solid_ ? "Vertices, Triangles, Tetrahedra or End" : "Vertices, Edges, Triangles or End");
     const bool isVector = keyword == "Tangents" || keyword == "Normals";
     const int width = isVector ? dimension_ : section->width;
     const std::int64_t values = std::int64_t(count(keyword, width)) * width;
@@ -191,151 +269,68 @@ class Parser {
 
   void readVertices() {
     const int n = begin("Vertices", vertices_, dimension_ + 1);
-    (solid_ ? solidMesh_.vertices.reserve(n) : mesh_.vertices.reserve(n));
-    double plane = 0;
+    places_.reserve(n);
     for (int i = 0; i < n; ++i) {
       const double x = words_.number<double>("a coordinate");
       const double y = words_.number<double>("a coordinate");
       const double z = dimension_ == 3 ? words_.number<double>("a coordinate") : 0;
-      if (i == 0) plane = z;
-      if (z != plane && !solid_)
-        words_.fail(words_.lastEnd() - 1,
-                    "vertex " + std::to_string(i + 1) + " at z = " + std::to_string(z) +
-                        ", expected all vertices in the plane z = " + std::to_string(plane));
+      if (!solid_ && i > 0 && z != places_.front().z())
+        failInSpace("vertex " + std::to_string(i + 1) + " at z = " + std::to_string(z) +
+                    ", expected all vertices in the plane z = " + std::to_string(places_.front().z()));
       words_.number<int>("a label");
-      if (solid_)
-        solidMesh_.vertices.emplace_back(x, y, z);
-      else
-        mesh_.vertices.emplace_back(x, y);
+      places_.emplace_back(x, y, z);
     }
   }
 
-  void readTriangles() {
-    const int n = begin("Triangles", triangles_, 4);
-    auto& triangles = solid_ ? solidMesh_.boundaryTriangles : mesh_.triangles;
-    auto& labels = solid_ ? solidMesh_.boundaryLabels : mesh_.regions;
-    triangles.reserve(n);
-    labels.reserve(n);
+  /// Complains about the last word of a mesh in space that is read for the plane.
+  [[noreturn]] void failInSpace(const std::string& what) const {
+    const std::string message = what + ", or dimension = 3 at the top of the scene for a body in space";
+    if (text_.converted) throw InputError(text_.path + ": " + message);
+    words_.fail(words_.lastEnd() - 1, message);
+  }
+
+  void readItems(const ItemKind& kind, Items& items) {
+    const int n = begin(kind.keyword, items.section, kind.corners + 1);
+    if (n > 0 && kind.dimension == 3 && !solid_)
+      failInSpace(std::to_string(n) + " " + std::string(kind.keyword) +
+                  ", expected triangles or quadrangles");
+    items.corners.reserve(size_t(n) * size_t(kind.corners));
+    items.labels.reserve(n);
     for (int i = 0; i < n; ++i) {
-      const int a = vertexNumber(), b = vertexNumber(), c = vertexNumber();
-      triangles.push_back({a, b, c});
-      labels.push_back(words_.number<int>("a label"));
+      for (int k = 0; k < kind.corners; ++k) items.corners.push_back(vertexNumber());
+      items.labels.push_back(words_.number<int>("a label"));
     }
   }
 
-  void readTetrahedra() {
-    const int n = begin("Tetrahedra", tetrahedra_, 5);
-    solidMesh_.tetrahedra.reserve(n);
-    solidMesh_.regions.reserve(n);
-    for (int i = 0; i < n; ++i) {
-      const int a = vertexNumber(), b = vertexNumber(), c = vertexNumber(), d = vertexNumber();
-      solidMesh_.tetrahedra.push_back({a, b, c, d});
-      solidMesh_.regions.push_back(words_.number<int>("a label"));
-    }
-  }
-
-  void readEdges() {
-    const int n = begin("Edges", edges_, 3);
-    mesh_.boundaryEdges.reserve(n);
-    mesh_.boundaryLabels.reserve(n);
-    for (int i = 0; i < n; ++i) {
-      const int a = vertexNumber(), b = vertexNumber();
-      mesh_.boundaryEdges.push_back({a, b});
-      mesh_.boundaryLabels.push_back(words_.number<int>("a label"));
-    }
-  }
-
+  MeditText text_;
   MeditWords words_;
   int dimension_ = 2;
-  Section vertices_, triangles_, edges_, tetrahedra_;
   bool solid_ = false;
-  TriangleMesh mesh_;
-  TetrahedronMesh solidMesh_;
+  Section vertices_;
+  std::vector<SpacePoint> places_;
+  std::array<Items, itemKinds.size()> items_;
+  std::vector<std::pair<size_t, size_t>> sources_;  // by triangle: the kind and the item that it comes from
   std::map<std::string, int> labelNames_, regionNames_;
 };
 
-bool isOneLine(const std::string& name) {
-  return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; });
-}
-
-template <class Number>
-void append(std::string& out, Number value, char after) {
-  char digits[32];
-  out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-  out += after;
-}
-
 }  // namespace
+
+TriangleMesh parseMedit(const MeditText& text, const std::vector<std::string>& regions) {
+  return Parser(text, false).parse(regions);
+}
+
+TetrahedronMesh parseSpaceMedit(const MeditText& text, const std::vector<std::string>& regions) {
+  return Parser(text, true).parseSolid(regions);
+}
 
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions) {
   const std::string text = readWhole(path, "a Medit mesh");
-  return Parser(path, text, false).parse(regions);
+  return parseMedit({path, text}, regions);
 }
 
 TetrahedronMesh readSpaceMedit(const std::string& path, const std::vector<std::string>& regions) {
   const std::string text = readWhole(path, "a Medit mesh");
-  return Parser(path, text, true).parseSolid(regions);
-}
-
-namespace {
-
-/// Items with vertex numbers and a label.
-template <size_t n>
-void appendItems(std::string& out, const char* section, const std::vector<std::array<int, n>>& items,
-                 const std::vector<int>& labels) {
-  out.append("\n").append(section).append("\n");
-  append(out, items.size(), '\n');
-  for (size_t i = 0; i < items.size(); ++i) {
-    for (const int v : items[i]) append(out, v + 1, ' ');
-    append(out, labels[i], '\n');
-  }
-}
-
-template <class Mesh>
-void appendEnd(std::string& out, const Mesh& mesh) {
-  out += "\nEnd\n";
-  const auto appendNames = [&](const char* of, const std::map<std::string, int>& names) {
-    for (const auto& [name, number] : names)
-      if (isOneLine(name)) out += std::string("# ") + of + ' ' + std::to_string(number) + " = " + name + '\n';
-  };
-  appendNames("label", mesh.labelNames);
-  appendNames("region", mesh.regionNames);
-}
-
-}  // namespace
-
-std::string meditText(const TriangleMesh& mesh) {
-  std::string out = "MeshVersionFormatted 2\nDimension 2\n\nVertices\n";
-  append(out, mesh.vertices.size(), '\n');
-  for (const Point& p : mesh.vertices) {
-    append(out, p.x(), ' ');
-    append(out, p.y(), ' ');
-    out += "0\n";
-  }
-  appendItems(out, "Edges", mesh.boundaryEdges, mesh.boundaryLabels);
-  appendItems(out, "Triangles", mesh.triangles, mesh.regions);
-  appendEnd(out, mesh);
-  return out;
-}
-
-std::string meditText(const TetrahedronMesh& mesh) {
-  std::string out = "MeshVersionFormatted 2\nDimension 3\n\nVertices\n";
-  append(out, mesh.vertices.size(), '\n');
-  for (const SpacePoint& p : mesh.vertices) {
-    for (const double x : p) append(out, x, ' ');
-    out += "0\n";
-  }
-  appendItems(out, "Triangles", mesh.boundaryTriangles, mesh.boundaryLabels);
-  appendItems(out, "Tetrahedra", mesh.tetrahedra, mesh.regions);
-  appendEnd(out, mesh);
-  return out;
-}
-
-void writeMedit(const TriangleMesh& mesh, const std::string& path) {
-  writeWhole(path, meditText(mesh));
-}
-void writeMedit(const TetrahedronMesh& mesh, const std::string& path) {
-  writeWhole(path, meditText(mesh));
+  return parseSpaceMedit({path, text}, regions);
 }
 
 }  // namespace mortier

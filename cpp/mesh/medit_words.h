@@ -40,6 +40,8 @@ class MeditWords {
     std::string_view name;
   };
   std::optional<Name> nextName();
+  /// What comes next is again what follows the last word, comments included.
+  void rewind() { at_ = lastEnd_; }
 
   /// Passes a string in double quotes, which FreeFEM's savemesh writes into the head of its files.
   void skipString();

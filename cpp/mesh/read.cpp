@@ -1,7 +1,9 @@
 #include "mesh/read.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "base/error.h"
@@ -10,6 +12,22 @@
 namespace mortier {
 namespace {
 
+/// Of a file, in small letters.
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool isOneOf(const std::vector<std::string>& extensions, const std::string& path) {
+  return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
+}
+
+const std::vector<std::string> ofGmsh{".msh",  ".geo", ".geo_unrolled", ".brep", ".step", ".stp",
+                                      ".iges", ".igs", ".unv",          ".bdf",  ".nas"};
+const std::vector<std::string> ofPython{".inp", ".vtk", ".vtu", ".xdmf", ".med", ".meshb"};
+
 void requireNoGeometry(const MeshSource& source) {
   if (source.size > 0 || !source.parameters.empty())
     throw InputError(source.path + ": size or parameters, expected only for a geometry that Gmsh meshes");
@@ -17,10 +35,30 @@ void requireNoGeometry(const MeshSource& source) {
 
 }  // namespace
 
+std::string otherMeshFiles() {
+  std::string text;
+  for (const auto& extensions : {ofGmsh, ofPython})
+    for (const std::string& extension : extensions) text += (text.empty() ? "" : ", ") + extension;
+  return text + "; any that meshio reads: meshio convert FROM TO.vtu";
+}
+
+bool isGmshFile(const std::string& path) {
+  return isOneOf(ofGmsh, path);
+}
+
+bool isPythonFile(const std::string& path) {
+  return isOneOf(ofPython, path);
+}
+
+bool isMeditFile(const std::string& path) {
+  return !isGmshFile(path) && !isPythonFile(path);
+}
+
 TriangleMesh readMesh(const MeshSource& source) {
   if (source.shape) return shapeMesh(*source.shape);
   if (isGmshFile(source.path)) return readGmsh(source);
   requireNoGeometry(source);
+  if (isPythonFile(source.path)) return readPythonFile(source);
   return readMedit(source.path, source.regions);
 }
 
@@ -29,6 +67,7 @@ TetrahedronMesh readSpaceMesh(const MeshSource& source) {
   if (source.inSpace) return shapeMesh(*source.inSpace);
   if (isGmshFile(source.path)) return readSpaceGmsh(source);
   requireNoGeometry(source);
+  if (isPythonFile(source.path)) return readSpacePythonFile(source);
   return readSpaceMedit(source.path, source.regions);
 }
 
@@ -119,6 +158,9 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
   }
   mesh.labelNames = plane.labelNames;
   mesh.regionNames = plane.regionNames;
+  mesh.sharedLabels = plane.sharedLabels;
+  mesh.sharedRegions = plane.sharedRegions;
+  mesh.changed = plane.changed;
   int largest = 0;
   for (const int label : plane.boundaryLabels) largest = std::max(largest, label);
   for (const auto& [name, label] : plane.labelNames) largest = std::max(largest, label);

@@ -37,11 +37,27 @@ struct MeshSource {
   std::map<std::string, double> parameters = {};  ///< of a .geo, which names them in DefineConstant
 };
 
-/// A shape, or a mesh file of any kind that is known: Medit by ourselves, others by Gmsh. \throws InputError
+/// A shape, or a mesh file of any kind that is known: Medit by ourselves, others by Gmsh or by meshio,
+/// quadrangles and the like cut into simplices (mesh/cut_cells.h). \throws InputError
 TriangleMesh readMesh(const MeshSource& source);
 TetrahedronMesh readSpaceMesh(const MeshSource& source);
 
-// Meshes and geometries that Gmsh reads: .msh (2.2, 4.1), .geo, CAD files. A geometry is meshed first.
+/// The kinds of files beside Medit's that are read, and what to do with others, for messages.
+std::string otherMeshFiles();
+/// Whether a file is read as Medit's, by its extension.
+bool isMeditFile(const std::string& path);
+
+// Meshes that Python reads and hands over as Medit text (views/mesh_files.py): .inp of Abaqus and CalculiX by
+// itself, .vtk, .vtu, .xdmf, .med and .meshb by meshio. Sets and groups become labels and regions as above.
+
+/// Whether a file is one for Python, by its extension.
+bool isPythonFile(const std::string& path);
+/// \throws InputError with what is wrong with the file, or where Python or meshio are not there
+TriangleMesh readPythonFile(const MeshSource& source);
+TetrahedronMesh readSpacePythonFile(const MeshSource& source);
+
+// Meshes and geometries that Gmsh reads: .msh (2.2, 4.1), .geo, CAD files, Nastran's. A geometry is meshed
+// first.
 
 /// Whether a file is one for Gmsh, by its extension.
 bool isGmshFile(const std::string& path);
@@ -50,11 +66,12 @@ bool isGmshFile(const std::string& path);
 constexpr double gmshPatience = 600;
 
 /// Physical curves become boundary labels, physical surfaces regions, with their numbers and names; where
-/// there are none, the curves or surfaces themselves, without names. \throws InputError when Gmsh cannot read
-/// the file, when it is no sound plane mesh of linear triangles, when a parameter is none of the geometry's,
-/// when Gmsh takes longer than `seconds`, or when this build has no Gmsh.
+/// there are none, the curves or surfaces themselves, without names. Of sides and elements in several groups
+/// the scene chooses one (mesh/regions.h). \throws InputError when Gmsh cannot read the file, when it is no
+/// sound plane mesh, when a parameter is none of the geometry's, when Gmsh takes longer than `seconds`, or
+/// when this build has no Gmsh.
 TriangleMesh readGmsh(const MeshSource& source, double seconds = gmshPatience);
-/// The same in space: linear tetrahedra; physical surfaces become boundary labels, physical volumes regions.
+/// The same in space: physical surfaces become boundary labels, physical volumes regions.
 TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds = gmshPatience);
 
 // Medit .mesh files (ASCII), as FreeFEM and Gmsh read and write them; coordinates survive bit by bit. The
@@ -62,12 +79,14 @@ TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds = gmshPat
 //   # label 3 = top
 //   # region 1 = punch
 
-/// Reads and validates. Vertices, Edges and Triangles are kept (vertex labels are not); sections that only
-/// guide a mesher (Corners, RequiredVertices, ...) are skipped. Of the regions those that are named
-/// (mesh/regions.h), all where none is. A third coordinate must be the same everywhere. \throws InputError
-/// `file:line: ...` on anything that is not a sound mesh, unknown keywords and a missing End included.
+/// Reads and validates. Vertices, Edges, Triangles and Quadrilaterals are kept (vertex labels are not);
+/// sections that only guide a mesher (Corners, RequiredVertices, ...) are skipped. Of the regions those that
+/// are named (mesh/regions.h), all where none is. A third coordinate must be the same everywhere. End may be
+/// missing where the last line is whole. \throws InputError `file:line: ...` on anything that is not a sound
+/// mesh, unknown keywords included.
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions = {});
-/// The same in space: Vertices, Tetrahedra and Triangles are kept, the triangles as the labelled boundary.
+/// The same in space: the elements are Tetrahedra, Hexahedra, Prisms and Pyramids, Triangles and
+/// Quadrilaterals the labelled boundary.
 TetrahedronMesh readSpaceMedit(const std::string& path, const std::vector<std::string>& regions = {});
 
 /// Writes the names of labels too, and each coordinate with the fewest digits (17 at most) that read back as

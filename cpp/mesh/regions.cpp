@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -13,9 +14,8 @@ namespace {
 
 template <class Mesh>
 std::string regionsOf(const Mesh& mesh) {
-  const std::set<int> present(mesh.regions.begin(), mesh.regions.end());
   std::string text;
-  for (const int region : present) {
+  for (const int region : knownNumbers(mesh.regions, mesh.sharedRegions)) {
     text += (text.empty() ? "" : ", ") + std::to_string(region);
     for (const auto& [name, number] : mesh.regionNames)
       if (number == region) text += " (" + name + ")";
@@ -31,7 +31,7 @@ int numberOf(const std::string& region, const Mesh& mesh) {
   const bool isNumber = std::from_chars(region.data(), end, number).ptr == end;
   if (named != mesh.regionNames.end()) number = named->second;
   if ((named != mesh.regionNames.end() || isNumber) &&
-      std::find(mesh.regions.begin(), mesh.regions.end(), number) != mesh.regions.end())
+      knownNumbers(mesh.regions, mesh.sharedRegions).contains(number))
     return number;
   throw InputError(mesh.name + ": no region " + region + ", expected one of " + regionsOf(mesh));
 }
@@ -67,7 +67,13 @@ template <class Mesh, class Elements>
 void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>& regions) {
   std::set<int> wanted;
   for (const std::string& region : regions) wanted.insert(numberOf(region, mesh));
-  keepItems([&](int region) { return wanted.count(region) > 0; }, mesh.regions, elements);
+  const auto isWanted = [&](int region) { return wanted.contains(region); };
+  const auto isKept = [&](int region) {
+    const auto groups = mesh.sharedRegions.find(region);
+    return isWanted(region) || (groups != mesh.sharedRegions.end() &&
+                                std::any_of(groups->second.begin(), groups->second.end(), isWanted));
+  };
+  keepItems(isKept, mesh.regions, elements);
 }
 
 /// Leaves out vertices that none of the elements has, and numbers the others by their order in them.
@@ -88,7 +94,149 @@ void renumberVertices(Mesh& mesh, Elements& elements, Boundary& boundary) {
     for (int& v : item) renumber(v);
 }
 
+using Names = std::map<std::string, int>;
+
+/// "top" in quotes, or its number.
+std::string nameOf(int number, const Names& names) {
+  for (const auto& [name, named] : names)
+    if (named == number) return name;
+  return std::to_string(number);
+}
+
+/// A number for sides or elements that are in several groups, with the names of these joined by a plus sign.
+class SharedNumbers {
+ public:
+  SharedNumbers(const std::vector<int>& numbers, Names& names, std::map<int, std::vector<int>>& shared)
+      : names_(names), shared_(shared) {
+    for (const int number : numbers) largest_ = std::max(largest_, number);
+    for (const auto& [name, number] : names) largest_ = std::max(largest_, number);
+  }
+  int operator()(const std::vector<int>& groups) {
+    const auto [found, isNew] = known_.try_emplace(groups, largest_ + 1);
+    if (isNew) {
+      ++largest_;
+      shared_[largest_] = groups;
+      std::string name = nameOf(groups.front(), names_);
+      for (size_t i = 1; i < groups.size(); ++i) name += "+" + nameOf(groups[i], names_);
+      names_.try_emplace(name, largest_);
+    }
+    return found->second;
+  }
+
+ private:
+  Names& names_;
+  std::map<int, std::vector<int>>& shared_;
+  std::map<std::vector<int>, int> known_;
+  int largest_ = 0;
+};
+
+/// Items with the same vertices become the first of them. \param others  lists that go with the items
+template <class Items, class... Others>
+void joinGroups(Items& items, std::vector<int>& numbers, Names& names,
+                std::map<int, std::vector<int>>& shared, Others&... others) {
+  std::vector<std::pair<typename Items::value_type, size_t>> sorted;
+  sorted.reserve(items.size());
+  for (size_t i = 0; i < items.size(); ++i) {
+    sorted.emplace_back(items[i], i);
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::map<size_t, std::vector<int>> several;  // by the first of the items
+  std::vector<char> isFirst(items.size(), 0);
+  for (size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    const size_t first = sorted[begin].second;
+    std::set<int> groups;
+    for (; end < sorted.size() && sorted[end].first == sorted[begin].first; ++end)
+      groups.insert(numbers[sorted[end].second]);
+    isFirst[first] = 1;
+    if (groups.size() > 1) several[first].assign(groups.begin(), groups.end());
+  }
+  SharedNumbers numberOf(numbers, names, shared);
+  for (const auto& [first, groups] : several) numbers[first] = numberOf(groups);
+  size_t at = 0;
+  keepItems([&](const auto& /*item*/) { return isFirst[at++] != 0; }, items, numbers, others...);
+}
+
+/// \param items  sides or elements, of which numbers[i] is that of the i-th  \param place  of an item, as
+/// text
+template <class Items, class Place>
+void chooseGroups(const std::string& mesh, const char* what, const Items& items, std::vector<int>& numbers,
+                  const Names& names, std::map<int, std::vector<int>>& shared, const std::set<int>& used,
+                  const Place& place) {
+  for (size_t i = 0; i < items.size() && !shared.empty(); ++i) {
+    const auto groups = shared.find(numbers[i]);
+    if (groups == shared.end()) continue;
+    std::vector<int> chosen;
+    if (used.contains(numbers[i])) chosen.push_back(numbers[i]);
+    for (const int group : groups->second)
+      if (used.contains(group)) chosen.push_back(group);
+    if (chosen.size() > 1)
+      throw FaultError(mesh + ": " + what + " at " + place(items[i]) + " is in the groups " +
+                           nameOf(chosen[0], names) + " and " + nameOf(chosen[1], names) +
+                           ", and the scene names both, expected groups that share none",
+                       "label-twice");
+    if (!chosen.empty()) numbers[i] = chosen.front();
+  }
+  shared.clear();
+}
+
+/// The mean of the vertices.
+template <class Mesh, class Item>
+std::string placeOf(const Mesh& mesh, const Item& item) {
+  auto sum = mesh.vertices[item[0]];
+  for (size_t k = 1; k < item.size(); ++k) sum += mesh.vertices[item[k]];
+  sum /= static_cast<double>(item.size());
+  if constexpr (std::is_same_v<Mesh, TriangleMesh>)
+    return placeText(sum);
+  else
+    return placeText(sum, 3);
+}
+
 }  // namespace
+
+std::set<int> knownNumbers(const std::vector<int>& present, const std::map<int, std::vector<int>>& shared) {
+  std::set<int> known(present.begin(), present.end());
+  for (const auto& [number, groups] : shared)
+    if (known.contains(number)) known.insert(groups.begin(), groups.end());
+  return known;
+}
+
+void takeGroups(TriangleMesh& mesh, const std::vector<std::string>& regions) {
+  joinGroups(mesh.triangles, mesh.regions, mesh.regionNames, mesh.sharedRegions);
+  joinGroups(mesh.boundaryEdges, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels, mesh.edgeMiddles,
+             mesh.edgeCurves);
+  if (regions.empty())
+    dropInnerEdges(mesh);
+  else
+    keepRegions(mesh, regions);
+  validate(mesh);
+}
+
+void takeGroups(TetrahedronMesh& mesh, const std::vector<std::string>& regions) {
+  joinGroups(mesh.tetrahedra, mesh.regions, mesh.regionNames, mesh.sharedRegions);
+  joinGroups(mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels);
+  if (regions.empty())
+    dropInnerTriangles(mesh);
+  else
+    keepRegions(mesh, regions);
+  validate(mesh);
+}
+
+void chooseGroups(TriangleMesh& mesh, const std::set<int>& labels, const std::set<int>& regions) {
+  const auto place = [&](const auto& item) { return placeOf(mesh, item); };
+  chooseGroups(mesh.name, "a side", mesh.boundaryEdges, mesh.boundaryLabels, mesh.labelNames,
+               mesh.sharedLabels, labels, place);
+  chooseGroups(mesh.name, "a triangle", mesh.triangles, mesh.regions, mesh.regionNames, mesh.sharedRegions,
+               regions, place);
+}
+
+void chooseGroups(TetrahedronMesh& mesh, const std::set<int>& labels, const std::set<int>& regions) {
+  const auto place = [&](const auto& item) { return placeOf(mesh, item); };
+  chooseGroups(mesh.name, "a side", mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames,
+               mesh.sharedLabels, labels, place);
+  chooseGroups(mesh.name, "a tetrahedron", mesh.tetrahedra, mesh.regions, mesh.regionNames,
+               mesh.sharedRegions, regions, place);
+}
 
 void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
   keepElements(mesh, mesh.triangles, regions);

@@ -1,6 +1,8 @@
 // Parts drawn together: the regions of a mesh that make one body.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,22 @@ void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions)
 void dropInnerEdges(TriangleMesh& mesh);
 /// The same of labelled triangles between two tetrahedra.
 void dropInnerTriangles(TetrahedronMesh& mesh);
+
+// Groups of a file (physical groups of Gmsh, sets of Abaqus) may share sides and elements, of which a mesh
+// has one label each. What is in several groups has a label of its own, until it gets that of the group that
+// the scene names.
+
+/// Makes a mesh sound whose sides and elements stand in it once for each of their groups: they become one,
+/// the regions are kept as above, sides between elements are dropped. \throws InputError
+void takeGroups(TriangleMesh& mesh, const std::vector<std::string>& regions);
+void takeGroups(TetrahedronMesh& mesh, const std::vector<std::string>& regions);
+
+/// Gives sides and elements in several groups the one that the scene names. \param labels, regions  those
+/// that it names. \throws FaultError `label-twice` with two groups where it names several of them
+void chooseGroups(TriangleMesh& mesh, const std::set<int>& labels, const std::set<int>& regions);
+void chooseGroups(TetrahedronMesh& mesh, const std::set<int>& labels, const std::set<int>& regions);
+
+/// Labels or regions that a scene may name. \param shared  `sharedLabels` or `sharedRegions` of the mesh
+std::set<int> knownNumbers(const std::vector<int>& present, const std::map<int, std::vector<int>>& shared);
 
 }  // namespace mortier

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "mesh/box_of.h"
 
 namespace mortier {
@@ -28,6 +29,12 @@ std::array<int, 3> sortedOf(std::array<int, 3> triangle) {
   return triangle;
 }
 
+/// Whether two triangles of the same vertices run around them in the same sense.
+bool sameSense(const std::array<int, 3>& one, const std::array<int, 3>& other) {
+  const auto at = std::find(other.begin(), other.end(), one[0]) - other.begin();
+  return other[static_cast<size_t>(at + 1) % 3] == one[1];
+}
+
 template <size_t n>
 void requireVertices(const TetrahedronMesh& mesh, const std::vector<std::array<int, n>>& items,
                      const char* what) {
@@ -38,6 +45,13 @@ void requireVertices(const TetrahedronMesh& mesh, const std::vector<std::array<i
                          std::to_string(v + 1) + ", expected 1 to " + std::to_string(mesh.vertices.size()));
 }
 
+/// Of the centre of a tetrahedron.
+std::string placeOf(const TetrahedronMesh& mesh, size_t t) {
+  SpacePoint sum = SpacePoint::Zero();
+  for (const int v : mesh.tetrahedra[t]) sum += mesh.vertices[v] / 4;
+  return placeText(sum, 3);
+}
+
 void orientTetrahedra(TetrahedronMesh& mesh) {
   for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     std::array<int, 4>& tetrahedron = mesh.tetrahedra[t];
@@ -46,7 +60,8 @@ void orientTetrahedra(TetrahedronMesh& mesh) {
     for (const auto& [a, b] : sidesOfTetrahedron) longest = std::max(longest, (place(b) - place(a)).norm());
     const double signedVolume = volume(mesh, tetrahedron);
     if (!(std::abs(signedVolume) > flat * longest * longest * longest))
-      throw InputError(mesh.name + ": tetrahedron " + std::to_string(t + 1) + " is flat, expected a volume");
+      throw InputError(mesh.name + ": tetrahedron " + std::to_string(t + 1) + " at " + placeOf(mesh, t) +
+                       " is flat, expected a volume");
     if (signedVolume < 0) std::swap(tetrahedron[2], tetrahedron[3]);
   }
 }
@@ -73,6 +88,12 @@ std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
                        std::to_string(all[i + 1].tetrahedron + 1) + " and " +
                        std::to_string(all[i + 2].tetrahedron + 1) +
                        " share a triangle, expected two at most");
+    if (end - i == 2 && sameSense(all[i].outward, all[i + 1].outward))
+      throw InputError(mesh.name + ": tetrahedra " + std::to_string(all[i].tetrahedron + 1) + " and " +
+                       std::to_string(all[i + 1].tetrahedron + 1) + " at " +
+                       placeOf(mesh, static_cast<size_t>(all[i + 1].tetrahedron)) +
+                       " lie on the same side of the triangle that they share: the mesh is folded there, "
+                       "expected one on each side");
     if (end - i == 1) boundary.push_back(all[i]);
     i = end;
   }
@@ -112,7 +133,11 @@ int TriangleCount::operator()(const std::array<int, 3>& triangle) const {
 }
 
 void validate(TetrahedronMesh& mesh) {
-  if (mesh.tetrahedra.empty()) throw InputError(mesh.name + ": no tetrahedra");
+  if (mesh.tetrahedra.empty())
+    throw InputError(
+        mesh.name +
+        ": no tetrahedra, expected a body in space; triangles in a plane become one with extrude "
+        "or revolve, or are one without dimension = 3");
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!mesh.vertices[v].allFinite())
       throw InputError(mesh.name + ": vertex " + std::to_string(v + 1) + " is not finite");
@@ -143,6 +168,18 @@ void validate(TetrahedronMesh& mesh) {
     if (labelled[found - boundary.begin()]++ != 0) throw InputError(here + " is labelled twice");
     triangle = found->outward;
   }
+}
+
+double aspectRatio(const TetrahedronMesh& mesh, int t) {
+  const double regular = std::sqrt(1.5);  // its edge over its height
+  const std::array<int, 4>& vertices = mesh.tetrahedra[t];
+  const auto place = [&](int k) -> const SpacePoint& { return mesh.vertices[vertices[k]]; };
+  double longest = 0;
+  for (const auto& [a, b] : sidesOfTetrahedron) longest = std::max(longest, (place(b) - place(a)).norm());
+  double largest = 0;  // of the sides' areas
+  for (const auto& [a, b, c] : oppositeTriangles)
+    largest = std::max(largest, (place(b) - place(a)).cross(place(c) - place(a)).norm() / 2);
+  return longest * largest / (3 * std::abs(volume(mesh, vertices))) / regular;
 }
 
 double extent(const TetrahedronMesh& mesh) {

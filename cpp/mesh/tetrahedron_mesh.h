@@ -20,12 +20,17 @@ struct TetrahedronMesh {
   std::vector<int> boundaryLabels;                    ///< label of each boundary triangle
   std::map<std::string, int> labelNames = {};         ///< boundary labels that have a name
   std::map<std::string, int> regionNames = {};
+  // Where groups of a file share sides or elements, until the scene chooses (mesh/regions.h): the groups of
+  // each label, and of each region, that stands for several.
+  std::map<int, std::vector<int>> sharedLabels = {};
+  std::map<int, std::vector<int>> sharedRegions = {};
+  std::string changed = {};  ///< what the reader made of other cells; empty: none were there
 };
 
 /// Checks what the solver relies on, and orients tetrahedra and boundary triangles: finite coordinates, no
 /// vertex out of range or unused, no tetrahedron flat or repeated, every triangle shared by two tetrahedra at
-/// most, labelled triangles on the boundary, each labelled once. A tetrahedron is flat when its volume is
-/// 1e-12 of the cube of its longest edge or less. \throws InputError with the first fault.
+/// most, one on each side, labelled triangles on the boundary, each labelled once. A tetrahedron is flat when
+/// its volume is 1e-12 of the cube of its longest edge or less. \throws InputError with the first fault.
 void validate(TetrahedronMesh& mesh);
 /// The first of these checks: that there is every vertex that tetrahedra and triangles name. \throws
 /// InputError
@@ -48,6 +53,9 @@ double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron
 
 /// Largest extent of the bounding box [m].
 double extent(const TetrahedronMesh& mesh);
+
+/// Ratio of the longest edge to the smallest height, over that of the regular tetrahedron: 1 is best.
+double aspectRatio(const TetrahedronMesh& mesh, int t);
 
 /// The labels present on the boundary, ascending, each once.
 std::vector<int> boundaryLabels(const TetrahedronMesh& mesh);

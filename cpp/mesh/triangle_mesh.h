@@ -62,6 +62,11 @@ struct TriangleMesh {
   /// By boundary edge what it stands for where that is known and no circle; empty where no edge has such a
   /// curve. Its middle is in `edgeMiddles`.
   std::vector<EdgeCurve> edgeCurves = {};
+  // Where groups of a file share sides or elements, until the scene chooses (mesh/regions.h): the groups of
+  // each label, and of each region, that stands for several.
+  std::map<int, std::vector<int>> sharedLabels = {};
+  std::map<int, std::vector<int>> sharedRegions = {};
+  std::string changed = {};  ///< what the reader made of other cells; empty: none were there
 
   /// Whether the curve of a boundary edge is known.
   [[nodiscard]] bool hasCurve(size_t edge) const { return !edgeCurves.empty() && edgeCurves[edge].known(); }

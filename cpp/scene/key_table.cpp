@@ -24,7 +24,7 @@ units | | SI | a length, a force, a stress, and a time if it is not s: `"mm, N, 
   numbers may have a unit of their own ([below](#units))
 [body] `[[body]]` | | | one or more |
 name | | | letters, digits, `_`, `-`; each once | names files and messages
-mesh | m | | a Medit `.mesh` file, a file for Gmsh (`.msh`, `.geo`, `.step`, ...), or a table | path relative
+mesh | m | | a file of a mesh or a geometry ([kinds](#meshes)), or a table | path relative
   to the scene
 volume | | `"automatic"` | `"automatic"`, `"pointwise"`, `"averaged"` | the volumetric strain that the
   material gets: of each point, or averaged over patches of triangles, by itself where the body keeps its

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "mesh/boundary_line.h"
 #include "mesh/read.h"
+#include "mesh/regions.h"
 #include "scene/document.h"
 #include "scene/keys.h"
 
@@ -27,8 +28,7 @@ int numberOf(const std::map<std::string, int>& names, const std::string& name, c
                         : "expected one of " + joined(words) + " (" + what + " of " + meshName + ")"));
 }
 
-template <class Labels>
-Keys wordsFor(const Labels& labels) {
+Keys wordsFor(const std::set<int>& labels) {
   Keys words;
   for (const int label : labels) words.push_back(std::to_string(label));
   return words;
@@ -37,8 +37,8 @@ Keys wordsFor(const Labels& labels) {
 template <class Mesh>
 int boundaryLabel(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
   if (!name.empty()) label = numberOf(mesh.labelNames, name, "boundaries", mesh.name, place);
-  const std::vector<int> labels = boundaryLabels(mesh);
-  if (std::binary_search(labels.begin(), labels.end(), label)) return label;
+  const std::set<int> labels = knownNumbers(mesh.boundaryLabels, mesh.sharedLabels);
+  if (labels.contains(label)) return label;
   throw InputError(place + ": label = " + std::to_string(label) +
                    (labels.empty() ? ", the mesh " + mesh.name + " has no labelled boundary"
                                    : ", expected one of " + joined(wordsFor(labels)) +
@@ -48,8 +48,8 @@ int boundaryLabel(const Mesh& mesh, int label, const std::string& name, const st
 template <class Mesh>
 int regionLabel(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
   if (!name.empty()) label = numberOf(mesh.regionNames, name, "regions", mesh.name, place);
-  const std::set<int> labels(mesh.regions.begin(), mesh.regions.end());
-  if (labels.count(label) > 0) return label;
+  const std::set<int> labels = knownNumbers(mesh.regions, mesh.sharedRegions);
+  if (labels.contains(label)) return label;
   throw InputError(place + ": region label = " + std::to_string(label) + ", expected one of " +
                    joined(wordsFor(labels)) + " (regions of " + mesh.name + ")");
 }
@@ -124,9 +124,25 @@ SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, con
   return vertexPointOf(mesh, mesh.tetrahedra, point, place);
 }
 
+/// Gives the mesh of a body, of groups that share sides or elements, those that the scene names. \pre labels
+/// are numbers. \throws FaultError
+template <class Mesh>
+void chooseGroupsOf(SceneDescription& scene, int body, Mesh& mesh) {
+  std::set<int> labels;
+  std::set<int> regions;
+  const auto into = [&](std::set<int>& used) {
+    return [&used, body](int of, int& label, const std::string& /*name*/, const std::string& /*where*/) {
+      if (of == body) used.insert(label);
+    };
+  };
+  forEachPlace(scene, into(labels), into(regions),
+               [](int /*body*/, auto& /*point*/, const std::string& /*where*/) {});
+  chooseGroups(mesh, labels, regions);
+}
+
 /// Labels and points of the scene become those of the meshes. \throws InputError
 template <class Mesh>
-void findPlaces(SceneDescription& scene, const std::vector<Mesh>& meshes) {
+void findPlaces(SceneDescription& scene, std::vector<Mesh>& meshes) {
   const auto place = [&](int body, const std::string& where) {
     return where + ": body " + scene.bodies[body].name;
   };
@@ -139,9 +155,10 @@ void findPlaces(SceneDescription& scene, const std::vector<Mesh>& meshes) {
         label = regionLabel(meshes[body], label, name, place(body, where));
       },
       [&]<class Place>(int body, Place& point, const std::string& where) {
-        if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), const Place&>)
+        if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), Place&>)
           point = vertexPoint(meshes[body], point, place(body, where));
       });
+  for (size_t b = 0; b < meshes.size(); ++b) chooseGroupsOf(scene, static_cast<int>(b), meshes[b]);
 }
 
 }  // namespace
@@ -186,7 +203,7 @@ ResolvedScene resolveScene(SceneDescription scene) {
   return resolved;
 }
 
-void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes) {
   constexpr int none = -2;
   const auto number = [&](std::map<std::string, int> TriangleMesh::*names) {
     return [&meshes, names](int body, int& label, const std::string& name, const std::string& /*where*/) {
@@ -207,8 +224,19 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
     }
   };
   forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);
-  decideSides(scene, meshes);
-  decideVolumes(scene, meshes);
+  std::vector<FaultError> faults;
+  for (size_t b = 0; b < meshes.size(); ++b) {
+    if (meshes[b] == nullptr) continue;
+    try {
+      chooseGroupsOf(scene, static_cast<int>(b), *meshes[b]);
+    } catch (const FaultError& error) {
+      faults.push_back(error);
+    }
+  }
+  const std::vector<const TriangleMesh*> chosen(meshes.begin(), meshes.end());
+  decideSides(scene, chosen);
+  decideVolumes(scene, chosen);
+  return faults;
 }
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/error.h"
 #include "mesh/triangle_mesh.h"
 #include "scene/scene.h"
 
@@ -28,8 +29,9 @@ ResolvedScene resolveScene(SceneDescription scene);
 
 /// Decides what can be decided in a scene that may be wrong: meshes that could not be read are nullptr, a
 /// name that a mesh does not have gets a number that no mesh has, and a contact with such a side and a point
-/// that is no vertex stay as they were written.
-void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+/// that is no vertex stay as they were written. \returns what is wrong with groups that share sides or
+/// elements
+std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes);
 
 // Parts of it.
 

@@ -50,6 +50,24 @@ TEST(ChildProcess, crashesAreMessages) {
   EXPECT_THROW(inChildProcess([]() -> std::string { throw std::bad_alloc(); }, ""), std::bad_alloc);
 }
 
+// It can write as little as our own code there, and start nothing.
+TEST(ChildProcess, aProgramAnswers) {
+  const auto answerOf = [](const std::string& program, const std::string& script) {
+    try {
+      return ChildProcess({program, "-c", script}, "a.inp: Python").answer(60);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(answerOf("/bin/sh", "printf rabc"), "abc");
+  EXPECT_EQ(answerOf("/bin/sh", "printf 'e: no'"), "a.inp: Python: no");
+  EXPECT_EQ(answerOf("/bin/sh", "exit 3"), "a.inp: Python gave up on it");
+  EXPECT_EQ(answerOf("no/such", ""), "a.inp: Python: no/such: No such file or directory");
+  const std::string file = testing::TempDir() + "child_process_" + std::to_string(getpid());
+  EXPECT_EQ(answerOf("/bin/sh", "echo x > " + file + "; printf r"), "");
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST(ChildProcess, thatDoesNotEndIsEnded) {
   const auto endless = []() -> std::string {
     for (;;) pause();

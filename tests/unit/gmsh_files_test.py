@@ -89,7 +89,8 @@ WRONG_LABELS = [
     ("a.msh", "upper.mesh", "label = \"left\", the mesh upper.mesh has no names of boundaries"),
 ]
 WRONG_MESHES = [
-    ("20 2 2 1 1 1 2 5", "20 3 2 1 1 1 2 5 4", "elements of Gmsh's type 3, expected linear triangles"),
+    ("20 2 2 1 1 1 2 5", "20 21 2 1 1 1 2 5 1 2 5 1 2 5 1",
+     "elements of Gmsh's type 21, expected linear or quadratic triangles"),
     ("5 1 1 0", "5 1 1 3", "node 5 is at z = 3"),
     (format_2(), "$MeshFormat\n", ""),
 ]

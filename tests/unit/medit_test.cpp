@@ -117,10 +117,13 @@ TEST(Medit, namesTheLineOfAFault) {
       {"1 2 1\n", "3 1 1\n", ":11: edge 1 (3 1) lies between two triangles"},
       {"1 2 1\n", "2 3 1\n",
        ":12: edge 2 (3 2) from (1, 1) to (1, 0) is labelled twice, 1 and 2, expected once"},
-      {"End", "Tetrahedra\n0\nQuadrilaterals\n1\n1 2 3 4 0\nEnd",
-       ":20: 1 Quadrilaterals, expected triangles only"},
+      {"End", "Tetrahedra\n0\nHexahedra\n1\n1 2 3 4 1 2 3 4 0\nEnd",
+       ":20: 1 Hexahedra, expected triangles or quadrangles, or dimension = 3 at the top of the scene"},
+      {"End", "Quadrilaterals\n1\n1 2 3 4 0\nEnd", ":19: triangle 3 (1 2 3) repeats triangle 1"},
       {"1 3 4 8\nEnd\n", "1 3 4 # 8\n", ":16: end of file, expected a label"},
-      {"End", "", ":16: end of file, expected Vertices, Edges, Triangles or End"},
+      {"1 3 4 8\nEnd\n", "1 3 4 8", ":16: end of file within a line, expected a line break or End"},
+      {"Triangles\n2\n1 2 3 7\n1 3 4 8\nEnd\n", "",
+       ":12: end of file, expected Vertices, Edges, Triangles or End"},
       {"Vertices", "Identifier \"x\nVertices", ":3: string without end"},
       {"Edges", std::string("\x01\xff\0Edges", 8), ":9: '???Edges', expected Vertices"},
   };
@@ -130,6 +133,25 @@ TEST(Medit, namesTheLineOfAFault) {
     EXPECT_EQ(message.find(file.path + fault.message), 0u) << message << "\nexpected " << fault.message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+// As FreeFEM does; a file that is cut off within a section or a line is refused above.
+TEST(Medit, readsAFileWithoutEnd) {
+  EXPECT_EQ(readText(replaced(square, "End\n", "")).triangles.size(), 2u);
+  EXPECT_EQ(readText(replaced(square, "End\n", "# label 2 = top\n")).labelNames.at("top"), 2);
+  for (size_t length = 0; length < square.size() - 4; ++length) {
+    if (square.substr(0, length + 1).ends_with("1 3 4 8\n")) continue;
+    EXPECT_NE(messageOf([&] { readText(square.substr(0, length)); }), "no error") << length;
+  }
+}
+
+// Each from its smallest vertex: the diagonals of neighbours of one numbering run alike.
+TEST(Medit, quadranglesAreCut) {
+  const TriangleMesh mesh =
+      readText(replaced(square, "Triangles\n2\n1 2 3 7\n1 3 4 8\n", "Quadrilaterals\n1\n3 4 1 2 9\n"));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.regions, (std::vector<int>{9, 9}));
+  EXPECT_EQ(mesh.changed, "cells with more corners are cut into triangles");
 }
 
 // What is kept of a mesh is looked up by its vertices: they must be there.

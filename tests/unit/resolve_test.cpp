@@ -84,8 +84,8 @@ TEST_F(ResolvedScenes, labelsAreNumbersOnceResolved) {
 TEST_F(ResolvedScenes, sidesAreLeftAsTheyAreWhereAMeshOrALabelIsMissing) {
   SceneDescription open = readScene(path());
   open.contacts[0].nonmortarSide.reset();
-  const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});
-  const auto choice = [&](SceneDescription scene, const std::vector<const TriangleMesh*>& meshes) {
+  TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});
+  const auto choice = [&](SceneDescription scene, const std::vector<TriangleMesh*>& meshes) {
     resolveWhatCanBe(scene, meshes);
     return scene.contacts[0].choice;
   };

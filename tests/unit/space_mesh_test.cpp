@@ -107,9 +107,10 @@ TEST_F(SpaceMesh, wrongFilesAreNamedWithTheirLine) {
   EXPECT_EQ(messageOf(head + element + "End\n"), "accepted");
   EXPECT_NE(messageOf("MeshVersionFormatted 2\nDimension 2\n").find("a.mesh:2: Dimension 2, expected 3"),
             std::string::npos);
-  EXPECT_NE(
-      messageOf(head + element + "Hexahedra\n1\n1 2 3 4 5 6 7 8 1\nEnd\n").find("expected tetrahedra only"),
-      std::string::npos);
+  EXPECT_NE(messageOf(head + element + "Hexahedra\n1\n1 2 3 4 5 6 7 8 1\nEnd\n").find("expected 1 to 4"),
+            std::string::npos);
+  EXPECT_NE(messageOf(head + element + "Tangents").find("a.mesh:12: end of file"), std::string::npos);
+  EXPECT_EQ(messageOf(head + element), "accepted");
   EXPECT_NE(messageOf(head + "Tetrahedra\n1\n1 2 3 9 1\nEnd\n").find("vertex 9, expected 1 to 4"),
             std::string::npos);
   EXPECT_NE(messageOf(head + "Tetrahedra\n1\n1 2 3 3 1\nEnd\n").find("no tetrahedron"), std::string::npos);

@@ -100,6 +100,19 @@ def _(case):
     case.upper.vertices[case.upper.triangles[60][2] - 1][1] -= 0.0825
 
 
+@fault("mesh-changed", "quads.mesh")
+def _(case):
+    case.raw["quads.mesh"] = ("MeshVersionFormatted 2\nDimension 2\nVertices\n16\n" +
+                              "".join(f"{i / 3} {1 - j / 3} 0\n" for j in (3, 2, 1, 0) for i in range(4)) +
+                              "Edges\n12\n" +
+                              "".join(f"{k + 1} {k + 2} 1\n{k + 13} {k + 14} 3\n"
+                                      f"{4 * k + 1} {4 * k + 5} 4\n{4 * k + 4} {4 * k + 8} 2\n"
+                                      for k in range(3)) + "Quadrilaterals\n9\n" +
+                              "".join(f"{v} {v + 1} {v + 5} {v + 4} 1\n"
+                                      for v in (1, 2, 3, 5, 6, 7, 9, 10, 11)) + "End\n")
+    case.scene = case.scene.replace("upper.mesh", "quads.mesh")
+
+
 @fault("size-jump", "upper.mesh: triangle")
 def _(case):
     case.upper.vertices[case.upper.triangles[60][2] - 1][1] -= 0.083
