@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -65,9 +66,10 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
 
 template <class Archive>
 void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
-  auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames] =
-      mesh;
-  archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames);
+  auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
+         boundaryNormals] = mesh;
+  archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
+          boundaryNormals);
 }
 
 template <class Archive>
@@ -268,16 +270,23 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
       }
     }
   }
+  const SpacePoint unknown = SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
   const size_t used = mesh.vertices.size();
   for (const Group& group : groups(gmsh, 2)) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
     for (const int entity : group.entities) {
       const std::vector<size_t> corners = elements(gmsh, triangleType, entity);
+      const std::map<size_t, SpacePoint> normals = normalsOn(gmsh, entity);
+      const auto normal = [&](size_t tag) {
+        const auto found = normals.find(tag);
+        return found == normals.end() ? unknown : found->second;
+      };
       for (size_t i = 0; i + 2 < corners.size(); i += 3) {
         const std::array<int, 3> added{vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])};
         if (*std::max_element(added.begin(), added.end()) >= static_cast<int>(used)) continue;
         mesh.boundaryTriangles.push_back(added);
         mesh.boundaryLabels.push_back(group.number);
+        mesh.boundaryNormals.push_back({normal(corners[i]), normal(corners[i + 1]), normal(corners[i + 2])});
       }
     }
   }

@@ -59,7 +59,7 @@ void keepEdges(TriangleMesh& mesh, const Keep& keep) {
 
 template <class Keep>
 void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
-  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels);
+  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels, mesh.boundaryNormals);
 }
 
 /// \param elements  triangles or tetrahedra of the mesh

@@ -20,6 +20,9 @@ struct TetrahedronMesh {
   std::vector<int> boundaryLabels;                    ///< label of each boundary triangle
   std::map<std::string, int> labelNames = {};         ///< boundary labels that have a name
   std::map<std::string, int> regionNames = {};
+  /// By boundary triangles and their vertices: outward normals of the geometry behind them, of length one; not
+  /// finite where that is not known. Empty: nowhere.
+  std::vector<std::array<SpacePoint, 3>> boundaryNormals = {};
 };
 
 /// Checks what the solver relies on, and orients tetrahedra and boundary triangles: finite coordinates, no
