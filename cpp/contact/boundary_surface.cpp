@@ -283,9 +283,9 @@ class Surface {
         higher += second.matrixU().col(told).dot(heightsLeft) / second.singularValues()[told] *
                   second.matrixV().col(told);
       const Vector rest = heights - others * higher;
-      const Vector fit = first.solve(rest);
-      const Vector misfit = rest - own * fit;
-      result.n = (result.n - fit[0] * t1 - fit[1] * t2).normalized();
+      const Vector lower = first.solve(rest);
+      const Vector misfit = rest - own * lower;
+      result.n = (result.n - lower[0] * t1 - lower[1] * t2).normalized();
       if (i + 1 < repetitions) continue;
       // What the misfit makes of the slopes; where points tell less, the next order of an arc.
       Matrix all(count, rank + told);
