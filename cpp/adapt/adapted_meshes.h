@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "base/types.h"
-#include "contact/surface.h"
 #include "mesh/refine.h"
 
 namespace mortier {
@@ -106,9 +105,9 @@ struct KnownCurves {
 
 KnownCurves curvesBehind(const TriangleMesh& mesh);
 
-/// The same in space, by the sides of contact (contact/surface.h); what has no label is a side of its own.
-/// Surfaces inside, where two regions meet, keep their triangles.
-CurvedFaces curvesBehind(TetrahedronMesh mesh, const SpaceHeld& held);
+/// The same in space (contact/boundary_surface.h). Surfaces inside, where two regions meet, keep their
+/// triangles.
+CurvedFaces curvesBehind(const TetrahedronMesh& mesh);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the
 // other mesh has no vertex there, the estimate shows half of it on any mesh: one is added.

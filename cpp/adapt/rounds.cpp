@@ -28,24 +28,11 @@ double leastOf(double asked) {
   return leastShare * (1 - 2.5 * (std::clamp(asked, small, large) - small));
 }
 
-/// The supports of a body in space, as contact takes them.
-Body heldBody(const BodyDescription& description, TetrahedronMesh mesh) {
-  SpaceConditions conditions;
-  for (const ConditionDescription& c : description.conditions)
-    if (c.kind == ConditionDescription::Kind::displacement)
-      conditions.displacements.push_back({c.label, c.component, {}, c.pointInSpace});
-  return {description.name, std::move(mesh), elasticMaterial({1, 0}, Plane::none), std::move(conditions), 1};
-}
-
 AdaptedMeshes firstMeshes(const ResolvedScene& scene) {
   const int degree = scene.description.degree;
   if (scene.spaceMeshes.empty()) return {scene.meshes, degree};
   std::vector<CurvedFaces> curves;
-  for (size_t b = 0; b < scene.spaceMeshes.size(); ++b) {
-    const Body body = heldBody(scene.description.bodies[b], scene.spaceMeshes[b]);
-    curves.push_back(curvesBehind(scene.spaceMeshes[b],
-                                  [&](int node, const SpacePoint& n) { return holds(body, node, n); }));
-  }
+  for (const TetrahedronMesh& mesh : scene.spaceMeshes) curves.push_back(curvesBehind(mesh));
   return {scene.spaceMeshes, std::move(curves), degree};
 }
 

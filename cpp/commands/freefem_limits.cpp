@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "commands/freefem.h"
@@ -115,12 +117,20 @@ namespace {
 
 using Kind = ConditionDescription::Kind;
 
-/// Whether every smooth part is plane: the method takes distances as meshed.
+/// Whether the surface is of planes that meet at more than 40 degrees: the method takes distances as meshed,
+/// and has other corners.
 bool hasPlaneParts(const ContactSurface& surface) {
   constexpr double rounding = 1e-9;
+  std::map<std::array<int, 2>, SpacePoint> normals;  // by edges
   for (size_t t = 0; t < surface.triangles.size(); ++t)
-    for (const SpacePoint& normal : surface.vertexNormals[t])
-      if ((normal - surface.normals[t]).norm() > rounding) return false;
+    for (int k = 0; k < 3; ++k) {
+      const SpacePoint& own = surface.normals[t];
+      if ((surface.vertexNormals[t][k].n - own).norm() > rounding) return false;
+      const auto [low, high] = std::minmax(surface.triangles[t][k], surface.triangles[t][(k + 1) % 3]);
+      const auto [across, isNew] = normals.try_emplace({low, high}, own);
+      if (!isNew && (across->second - own).norm() > rounding && across->second.dot(own) > std::cos(sharpTurn))
+        return false;
+    }
   return true;
 }
 

@@ -71,9 +71,9 @@ Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRo
 ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
                                            const SpaceContactMesh& mortarMesh,
                                            const SpaceInterfaceOptions& options) {
-  const ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label,
-                                 options.nonmortarHeld);
-  const ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label, options.mortarHeld);
+  ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
+  ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
+  shareNormals(nonmortar, mortar);
   const std::string names = sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh);
   if (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1)
     throw InputError(names + ": in space variant = \"weighted\" is known, and for linear displacements " +
@@ -160,6 +160,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   Vector least = Vector::Constant(rows, infinity);
   result.lengths_ = Vector::Zero(rows);
   std::vector<double> areas, gaps, sizes;
+  std::vector<DistanceError> errors;
   const auto add = [](Triplets& entries, Eigen::Index row, int node, double value, const SpacePoint& n) {
     for (int c = 0; c < 3; ++c)
       if (const double entry = value * n[c]; entry != 0)
@@ -229,6 +230,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       sizes.push_back(std::sqrt(twiceArea));
       result.points_.normals.push_back(n);
     }
+    errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
     for (Eigen::Index i = 0; i < count; ++i) {
       const int row = own[i];
       result.lengths_[row] += parts.row(i).dot(covered);
@@ -304,6 +306,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
   const double smaller = std::min(nonmortar.extent, mortar.extent);
   if (!options.gap) {
+    result.sagitta_ = visibleError(errors);
     result.settleDistance(options.initial, smaller, names);
     return result;
   }

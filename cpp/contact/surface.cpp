@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "base/disjoint_sets.h"
 #include "base/error.h"
 
 namespace mortier {
 namespace {
 
-/// Triangles that turn by less are smooth.
-const double smoothCosine = std::cos(40 * std::numbers::pi / 180);
 /// Normals whose sine is below this are one.
 constexpr double sameNormal = 1e-9;
-/// A surface whose normal is closer than this to the plane of an adjacent side is smooth across it.
-const double mirrorSine = std::sin(20 * std::numbers::pi / 180);
 /// Mortar triangles that turn away by more than this do not face a direction.
 constexpr double grazing = -1e-3;
 /// Polygons below this part of a triangle are dropped.
@@ -49,17 +43,6 @@ void clip(std::vector<Point>& polygon, int side) {
     }
   }
   polygon = std::move(result);
-}
-
-/// Nagata's c of a side.
-SpacePoint sideCurve(const SpacePoint& d, const SpacePoint& n0, const SpacePoint& n1) {
-  constexpr double parallel = 1e-12;
-  const double a = n0.dot(n1);
-  const double sine = 1 - a * a;
-  if (sine < parallel) return SpacePoint::Zero();
-  const double begin = n0.dot(d);
-  const double end = -n1.dot(d);
-  return ((begin - a * end) * n0 + (end - a * begin) * n1) / sine;
 }
 
 /// Finds the triangles of TriangleTree::findAlong().
@@ -91,76 +74,38 @@ double areaOf(const std::vector<Point>& polygon) {
 
 }  // namespace
 
-ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label,
-                               const SpaceHeld& held)
+ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label)
     : degree(nodes.degree) {
-  std::map<std::array<int, 2>, std::vector<int>> edges;
   Eigen::AlignedBox3d box;
   SpacePoint sum = SpacePoint::Zero();
+  const BoundarySurface surface = boundarySurface(mesh, label);
   for (size_t i = 0; i < nodes.faces.size(); ++i) {
     if (mesh.boundaryLabels[i] != label) continue;
-    const std::array<int, 6>& face = nodes.faces[i];
-    std::array<SpacePoint, 3> x;
+    std::array<SpacePoint, 3>& x = places.emplace_back();
     for (int k = 0; k < 3; ++k) {
-      x[k] = nodes.places[face[k]];
+      x[k] = nodes.places[nodes.faces[i][k]];
       box.extend(x[k]);
-      const auto [low, high] = std::minmax(face[k], face[(k + 1) % 3]);
-      edges[{low, high}].push_back(static_cast<int>(triangles.size()));
     }
     const SpacePoint twice = (x[1] - x[0]).cross(x[2] - x[0]);
     area += twice.norm() / 2;
     sum += twice;
-    triangles.push_back(face);
-    places.push_back(x);
+    triangles.push_back(nodes.faces[i]);
     normals.push_back(twice.normalized());
+    parts.push_back(surface.parts[i]);
+    vertexNormals.push_back(surface.normals[i]);
   }
   if (triangles.empty())
     throw InputError("label = " + std::to_string(label) + ", expected a boundary label of " + mesh.name);
   extent = box.sizes().maxCoeff();
   const SpacePoint mean = sum.normalized();
-  planar = std::all_of(normals.begin(), normals.end(),
-                       [&](const SpacePoint& n) { return n.cross(mean).norm() < sameNormal; });
-  DisjointSets sets(triangles.size());
-  for (const auto& [edge, of] : edges)
-    for (size_t k = 1; k < of.size(); ++k)
-      if (normals[of[0]].dot(normals[of[k]]) > smoothCosine) sets.join(of[0], of[k]);
-  for (size_t t = 0; t < triangles.size(); ++t) parts.push_back(sets.of(static_cast<int>(t)));
-  findNormals(mesh, label, held);
+  const auto isMean = [&](const SpacePoint& n) { return n.cross(mean).norm() < sameNormal; };
+  planar = std::all_of(normals.begin(), normals.end(), isMean) &&
+           std::all_of(vertexNormals.begin(), vertexNormals.end(), [&](const auto& ofTriangle) {
+             return std::all_of(ofTriangle.begin(), ofTriangle.end(),
+                                [&](const SurfaceNormal& normal) { return isMean(normal.n); });
+           });
   findCurvatures();
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    std::array<SpacePoint, 3>& curves = sideCurves_.emplace_back();
-    for (int k = 0; k < 3; ++k)
-      curves[k] = sideCurve(places[t][(k + 1) % 3] - places[t][k], vertexNormals[t][k],
-                            vertexNormals[t][(k + 1) % 3]);
-  }
-}
-
-void ContactSurface::findNormals(const TetrahedronMesh& mesh, int label, const SpaceHeld& held) {
-  std::map<std::array<int, 2>, SpacePoint> sums;  // by vertices and parts
-  for (size_t t = 0; t < triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const SpacePoint a = places[t][(k + 1) % 3] - places[t][k];
-      const SpacePoint b = places[t][(k + 2) % 3] - places[t][k];
-      const auto [sum, isNew] = sums.try_emplace({triangles[t][k], parts[t]}, SpacePoint::Zero());
-      sum->second += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
-    }
-  for (auto& [key, sum] : sums) sum.normalize();
-  for (size_t i = 0; held && !planar && i < mesh.boundaryTriangles.size(); ++i) {
-    if (mesh.boundaryLabels[i] == label) continue;
-    const auto& [a, b, c] = mesh.boundaryTriangles[i];
-    const SpacePoint across =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
-    for (const int v : {a, b, c})
-      for (auto each = sums.lower_bound({v, 0}); each != sums.end() && each->first[0] == v; ++each) {
-        SpacePoint& normal = each->second;
-        const double along = normal.dot(across);
-        if (std::abs(along) < mirrorSine && held(v, across)) normal = (normal - along * across).normalized();
-      }
-  }
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    std::array<SpacePoint, 3>& own = vertexNormals.emplace_back();
-    for (int k = 0; k < 3; ++k) own[k] = sums.at({triangles[t][k], parts[t]});
-  }
+  findSides();
 }
 
 /// |n_i - n_j|/|x_i - x_j| of the edges at a vertex.
@@ -169,7 +114,7 @@ void ContactSurface::findCurvatures() {
   for (size_t t = 0; t < triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
       for (const int other : {(k + 1) % 3, (k + 2) % 3}) {
-        const double turn = (vertexNormals[t][k] - vertexNormals[t][other]).norm();
+        const double turn = (vertexNormals[t][k].n - vertexNormals[t][other].n).norm();
         auto& [sum, count] = sums[{triangles[t][k], parts[t]}];
         sum += turn < sameNormal ? 0 : turn / (places[t][k] - places[t][other]).norm();
         ++count;
@@ -185,7 +130,7 @@ void ContactSurface::findCurvatures() {
 
 SpacePoint ContactSurface::normalAt(int triangle, const Eigen::Vector3d& l) const {
   const auto& [a, b, c] = vertexNormals[triangle];
-  return (l[0] * a + l[1] * b + l[2] * c).normalized();
+  return (l[0] * a.n + l[1] * b.n + l[2] * c.n).normalized();
 }
 
 double ContactSurface::curvatureAt(int triangle, const Eigen::Vector3d& l) const {
@@ -283,7 +228,7 @@ VertexTable verticesOf(const ContactSurface& surface) {
       const int part = surface.parts[t];
       VertexFacts& vertex = vertices[{surface.triangles[t][k], part}];
       vertex.place = surface.places[t][k];
-      vertex.normal = surface.vertexNormals[t][k];
+      vertex.normal = surface.vertexNormals[t][k].n;
       vertex.curvature = surface.curvatures[t][k];
       for (const int other : {(k + 1) % 3, (k + 2) % 3})
         vertex.neighbours.insert({surface.triangles[t][other], part});

@@ -11,27 +11,22 @@
 #include <vector>
 
 #include "base/types.h"
+#include "contact/boundary_surface.h"
 #include "mesh/tetrahedron_mesh.h"
 
 namespace mortier {
 
-/// Whether the motion of a node along a direction is prescribed.
-using SpaceHeld = std::function<bool(int node, const SpacePoint& direction)>;
-
 struct ContactSurface {
-  /// \param held  of the nodes of the body; none is where empty
   /// \throws InputError when the mesh does not have the label.
-  ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label, const SpaceHeld& held = {});
+  ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label);
 
   int degree = 1;
   std::vector<std::array<int, 6>> triangles;      ///< nodes of the body: three vertices, then the middles
   std::vector<std::array<SpacePoint, 3>> places;  ///< of the vertices [m]
   std::vector<SpacePoint> normals;                ///< outward, of length one
   std::vector<int> parts;                         ///< by triangles: which turn smoothly into each other
-  /// By triangles and vertices: normals of the curved surface that a part stands for. Max's weights (J.
-  /// Graphics Tools 4(2), 1999) are exact on spheres. Where the motion across an adjacent side of the body is
-  /// prescribed the surface is continued as its mirror image.
-  std::vector<std::array<SpacePoint, 3>> vertexNormals;
+  /// By triangles and vertices, of the curved surface that a part stands for (boundary_surface.h).
+  std::vector<std::array<SurfaceNormal, 3>> vertexNormals;
   std::vector<std::array<double, 3>> curvatures;  ///< there, the mean of all directions, without sign [1/m]
   double area = 0;                                ///< [m^2]
   double extent = 0;                              ///< largest of the bounding box [m]
@@ -41,19 +36,30 @@ struct ContactSurface {
   /// Of the curved surface at a point of a triangle, by its barycentric coordinates.
   [[nodiscard]] SpacePoint normalAt(int triangle, const Eigen::Vector3d& l) const;
   [[nodiscard]] double curvatureAt(int triangle, const Eigen::Vector3d& l) const;
-  /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: with
-  /// d from one end of a side to the other and n the normals there, Nagata's patch (Comput. Aided Geom.
-  /// Design 22, 2005) has the quadratic sides x0 + (d - c) t + c t^2, with the least c for which n0 (d - c) =
-  /// n1 (d + c) = 0, and is -sum l_i l_j c_ij off.
+  /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: the
+  /// cubic over each side that is perpendicular to the normals at its ends, continued into the triangle so
+  /// that quadratic heights are exact.
   [[nodiscard]] SpacePoint offset(int triangle, const Eigen::Vector3d& l) const {
-    const std::array<SpacePoint, 3>& c = sideCurves_[triangle];
-    return -(l[0] * l[1] * c[0] + l[1] * l[2] * c[1] + l[2] * l[0] * c[2]);
+    SpacePoint sum = SpacePoint::Zero();
+    for (int k = 0; k < 3; ++k) sum += l[k] * l[(k + 1) % 3] * sides_[triangle][k].at(l[k] - l[(k + 1) % 3]);
+    return sum;
   }
+  /// Expected error of that [m].
+  [[nodiscard]] double offsetError(int triangle) const;
+
+  /// Where vertices of both are in one place the surfaces are one there: the normal that is known better, or
+  /// the mean of both.
+  friend void shareNormals(ContactSurface& one, ContactSurface& other);
 
  private:
-  void findNormals(const TetrahedronMesh& mesh, int label, const SpaceHeld& held);
+  struct Side {
+    SpacePoint even{0, 0, 0}, odd{0, 0, 0};  ///< [m]
+    [[nodiscard]] SpacePoint at(double difference) const { return even + difference * odd; }
+  };
   void findCurvatures();
-  std::vector<std::array<SpacePoint, 3>> sideCurves_;
+  void findSides();
+  [[nodiscard]] Side sideOver(int triangle, int k) const;
+  std::vector<std::array<Side, 3>> sides_;
 };
 
 /// A nonmortar and a mortar triangle that face each other. A point of the first one, at its second and third
@@ -69,6 +75,19 @@ struct FacingTriangles {
 
   [[nodiscard]] Eigen::Vector3d at(const Point& l) const { return mu * Eigen::Vector3d(l.x(), l.y(), 1); }
 };
+
+/// Of the distance of two triangles that face each other [m].
+struct DistanceError {
+  double nearest = 0;  ///< least distance
+  double error = 0;    ///< expected; 0 where both triangles are one
+};
+
+double errorBetween(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                    const FacingTriangles& facing);
+
+/// The largest error of those that are a tenth or more of how much farther apart the triangles are than the
+/// nearest: others are not seen in contact whatever the approach of the bodies is.
+double visibleError(const std::vector<DistanceError>& errors);
 
 /// Calls visit with every pair of triangles that face each other within `reach` along the directions of the
 /// nonmortar triangles. The polygons of a nonmortar triangle do not overlap where the mortar surface is

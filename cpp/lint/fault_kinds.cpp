@@ -100,7 +100,7 @@ const std::vector<FaultKind>& faultKinds() {
       {"contact-overlap", warning, "the sides face each other over a small part only",
        "check the position of the meshes and the labels"},
       {"contact-polygon", warning,
-       "the distance is no larger than what polygons are off the curves behind them",
+       "the distance is not known well enough from polygons, or from triangles in space",
        "give the distance (contact.gap), or initial = \"close\" where both are one curve, or refine both "
        "sides"},
       {"gap-large", warning, "the sides are further apart than half the smaller body",

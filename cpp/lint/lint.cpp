@@ -224,7 +224,44 @@ Faults lintResolved(const ResolvedScene& resolved) {
   return faults;
 }
 
+namespace {
+
+/// By how much the sides of a contact in space approach each other beyond touching, by order of magnitude
+/// [m]: by what prescribed motions and loads of each body make of it as a whole.
+double approachOf(const SceneDescription& scene, const std::vector<SampledDatum>& data,
+                  const ContactInterface& interface) {
+  double approach = -interface.initialDistance().minCoeff();
+  for (const int body : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
+    double motion = 0;
+    for (const SampledDatum& datum : data)
+      if (static_cast<int>(datum.body) == body && datum.kind != SampledDatum::Kind::temperature &&
+          datum.kind != SampledDatum::Kind::distance)
+        motion = std::max(motion, datum.stressOfUnit(scene) * datum.largestIn(scene.time) * datum.size /
+                                      scene.bodies[datum.body].material.elasticity.young);
+    approach += motion;
+  }
+  return approach;
+}
+
+void lintSurfaces(const SceneDescription& scene, const Model& model, Faults& faults) {
+  constexpr double visible = 0.1;
+  const std::vector<SampledDatum> data = sampledData(meshedScene(scene, model));
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const double approach = approachOf(scene, data, interface);
+    if (!(interface.sagitta() > visible * approach) || !(approach > 0)) continue;
+    const std::string& length = scene.units.length;
+    faults.add("contact-polygon", scene.contacts[k].where,
+               "the distance of the curved surfaces is known to " + digits(interface.sagitta()) + " " +
+                   length + " from these meshes, and the bodies approach each other by about " +
+                   digits(approach) + " " + length);
+  }
+}
+
+}  // namespace
+
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
+  if (scene.inSpace()) lintSurfaces(scene, model, faults);
   if (!scene.inSpace()) lintData(scene, model, faults);
   for (size_t b = 0; b < model.bodies.size() && !scene.inSpace(); ++b)
     if (const auto centre = freeRotation(model, static_cast<int>(b)))

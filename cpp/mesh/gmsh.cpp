@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "base/archive.h"
@@ -58,9 +60,9 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
 template <class Archive>
 void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
   auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-         sharedLabels, sharedRegions, changed] = mesh;
+         sharedLabels, sharedRegions, changed, boundaryNormals] = mesh;
   archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-          sharedLabels, sharedRegions, changed);
+          sharedLabels, sharedRegions, changed, boundaryNormals);
 }
 
 template <class Archive>
@@ -220,10 +222,11 @@ class VertexNumbers {
 };
 
 /// Cells of the dimension of the mesh, or one lower, as simplices with the numbers of their groups.
+/// \param entities  those of the geometry of which they are
 template <size_t n, class Numbers>
 ChangedCells addCells(const Gmsh& gmsh, int dimension, Numbers& vertex,
                       std::vector<std::array<int, n> >& simplices, std::vector<int>& numbers,
-                      std::map<std::string, int>& names) {
+                      std::map<std::string, int>& names, std::vector<int>* entities = nullptr) {
   ChangedCells changed;
   for (const Group& group : groups(gmsh, dimension)) {
     if (!group.name.empty()) names[group.name] = group.number;
@@ -235,6 +238,7 @@ ChangedCells addCells(const Gmsh& gmsh, int dimension, Numbers& vertex,
           cutCell(cell, simplices);
         }
         numbers.resize(simplices.size(), group.number);
+        if (entities != nullptr) entities->resize(simplices.size(), entity);
         changed.quadratic = changed.quadratic || (type.quadratic && !corners.empty());
         changed.cut = changed.cut || (type.corners != n && !corners.empty());
       });
@@ -289,13 +293,24 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
       addCells(gmsh, 3, vertex, mesh.tetrahedra, mesh.regions, mesh.regionNames).text("tetrahedra");
   const auto used = static_cast<int>(mesh.vertices.size());
   TetrahedronMesh sides;
-  addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames);
+  std::vector<int> surfaces;
+  addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames, &surfaces);
+  std::map<int, std::map<int, SpacePoint>> normals;  // by surfaces and vertices
+  for (const int surface : std::set<int>(surfaces.begin(), surfaces.end()))
+    for (const auto& [node, normal] : normalsOn(gmsh, surface)) normals[surface][vertex(node)] = normal;
   mesh.vertices.resize(static_cast<size_t>(used));  // surfaces of no volume have others
   for (size_t i = 0; i < sides.boundaryTriangles.size(); ++i) {
     const std::array<int, 3>& side = sides.boundaryTriangles[i];
     if (*std::max_element(side.begin(), side.end()) >= used) continue;
     mesh.boundaryTriangles.push_back(side);
     mesh.boundaryLabels.push_back(sides.boundaryLabels[i]);
+    std::array<SpacePoint, 3>& known = mesh.boundaryNormals.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const auto found = normals[surfaces[i]].find(side[k]);
+      known[k] = found != normals[surfaces[i]].end()
+                     ? found->second
+                     : SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
   }
   takeGroups(mesh, source.regions);
   return mesh;

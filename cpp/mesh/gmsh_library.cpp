@@ -72,18 +72,17 @@ void Gmsh::fail() const {
   throw InputError(path_ + ": Gmsh: " + said);
 }
 
-namespace {
-
-const Point unknownPoint = Point::Constant(std::numeric_limits<double>::quiet_NaN());
-
-/// Of a curve that has a shape, not of one that is its mesh; else empty.
-std::string shapeOf(const Gmsh& gmsh, int curve) {
+std::string shapeOf(const Gmsh& gmsh, int dimension, int entity) {
   char* type = nullptr;
-  gmsh.call<decltype(gmshModelGetType)>("gmshModelGetType", 1, curve, &type);
+  gmsh.call<decltype(gmshModelGetType)>("gmshModelGetType", dimension, entity, &type);
   std::string word = type == nullptr ? "" : type;
   if (type != nullptr) gmsh.take(Gmsh::Array<char>{type, 0});
   return word.find("Discrete") != std::string::npos ? "" : word;
 }
+
+namespace {
+
+const Point unknownPoint = Point::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// The point of a curve nearest to the middle of one of its edges; none where Gmsh finds none near it.
 Point middleOn(const Gmsh& gmsh, int curve, double z, const Point& a, const Point& b) {
@@ -228,7 +227,7 @@ bool isStraight(const SampledCurve& curve) {
 std::vector<KnownEdge> knownEdges(const Gmsh& gmsh, int curve, const std::vector<size_t>& ends,
                                   const PlaneNodes& nodes) {
   std::vector<KnownEdge> edges(ends.size() / 2, {unknownPoint});
-  const std::string shape = shapeOf(gmsh, curve);
+  const std::string shape = shapeOf(gmsh, 1, curve);
   if (shape.empty()) return edges;
   std::optional<GmshCurve> byParameter =
       shape == "Circle" || shape == "Line" ? std::nullopt : curveOf(gmsh, curve);

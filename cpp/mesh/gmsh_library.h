@@ -51,6 +51,13 @@ class Gmsh {
   void* library_ = nullptr;
 };
 
+/// The kind of a curve or surface that has a shape, not of one that is its mesh; else empty.
+std::string shapeOf(const Gmsh& gmsh, int dimension, int entity);
+
+/// Normals of a surface of Gmsh at its nodes, by their tags: of those that are on it, to a millionth of its
+/// size, and have one.
+std::map<size_t, SpacePoint> normalsOn(const Gmsh& gmsh, int surface);
+
 // What the edges of Gmsh's curves stand for.
 
 /// Nodes of a plane mesh of Gmsh.

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -110,6 +111,18 @@ class SweptVertices {
   std::vector<std::vector<int>> numbers_;
 };
 
+const SpacePoint unknownNormal = SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
+
+/// At the end `a` of a boundary edge to `b` in a plane mesh, by the circle through its middle; not finite where
+/// that is not known. \param right  whether outside is to the right of the way to b
+Point normalOfEdge(const TriangleMesh& plane, size_t e, int a, int b, bool right) {
+  if (plane.edgeMiddles.empty() || plane.hasCurve(e)) return unknownNormal.head<2>();
+  const Point along = plane.vertices[b] - plane.vertices[a];
+  const Point half = (plane.edgeMiddles[e] - plane.vertices[a]).normalized();
+  const Point tangent = (2 * half.dot(along) * half - along).normalized();
+  return right ? Point(tangent.y(), -tangent.x()) : Point(-tangent.y(), tangent.x());
+}
+
 template <size_t n>
 bool allDifferent(std::array<int, n> numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -130,10 +143,20 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
   TetrahedronMesh mesh;
   mesh.name = plane.name;
   const SweptVertices vertex(plane.vertices, exact, closed, mesh.vertices);
-  const auto addTriangle = [&](const std::array<int, 3>& triangle, int label) {
+  const auto addTriangle = [&](const std::array<int, 3>& triangle, int label,
+                               const std::array<SpacePoint, 3>& normals) {
     if (!allDifferent(triangle)) return;
     mesh.boundaryTriangles.push_back(triangle);
     mesh.boundaryLabels.push_back(label);
+    mesh.boundaryNormals.push_back(normals);
+  };
+  const auto swept = [&](const Point& n, int v, int layer) {
+    constexpr double alongAxis = 1e-9;
+    if (sweep.length != 0) return SpacePoint(n.x(), n.y(), 0);
+    if (plane.vertices[v].x() == 0)
+      return std::abs(n.x()) < alongAxis ? SpacePoint(0, n.y() < 0 ? -1 : 1, 0) : unknownNormal;
+    const double angle = exact.angle * layer / sweep.layers;
+    return SpacePoint(n.x() * std::cos(angle), n.y(), n.x() * std::sin(angle));
   };
   // Diagonals of the sides of a prism go from the smaller number above to the larger one below.
   for (int layer = 0; layer < sweep.layers; ++layer) {
@@ -152,8 +175,13 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
     }
     for (size_t e = 0; e < plane.boundaryEdges.size(); ++e) {
       const auto& [a, b] = std::minmax(plane.boundaryEdges[e][0], plane.boundaryEdges[e][1]);
-      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer + 1, a)}, plane.boundaryLabels[e]);
-      addTriangle({vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)}, plane.boundaryLabels[e]);
+      const bool right = a == plane.boundaryEdges[e][0];  // of the edge is outside
+      const Point atA = normalOfEdge(plane, e, a, b, right);
+      const Point atB = normalOfEdge(plane, e, b, a, !right);
+      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer + 1, a)}, plane.boundaryLabels[e],
+                  {swept(atA, a, layer), swept(atB, b, layer), swept(atA, a, layer + 1)});
+      addTriangle({vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)}, plane.boundaryLabels[e],
+                  {swept(atB, b, layer), swept(atB, b, layer + 1), swept(atA, a, layer + 1)});
     }
   }
   mesh.labelNames = plane.labelNames;
@@ -170,7 +198,8 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
     mesh.labelNames.emplace(end == 0 ? "start" : "end", label);
     for (const auto& [a, b, c] : plane.triangles) {
       const int layer = end == 0 ? 0 : sweep.layers;
-      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer, c)}, label);
+      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer, c)}, label,
+                  {unknownNormal, unknownNormal, unknownNormal});
     }
   }
   validate(mesh);

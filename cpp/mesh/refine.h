@@ -63,9 +63,10 @@ Point middleOfArc(const Point& a, const Point& b, double curvature);
 /// The curved surface for which the boundary of a mesh stands: normals at its vertices. Empty where all sides
 /// are plane.
 struct CurvedFaces {
-  std::vector<std::array<int, 3>> triangles;         ///< of the whole boundary, labelled or not
-  std::vector<int> parts;                            ///< of each: which turn smoothly into each other
-  std::map<std::array<int, 2>, SpacePoint> normals;  ///< by vertices and parts, of length one
+  std::vector<std::array<int, 3>> triangles;  ///< of the whole boundary, labelled or not
+  std::vector<int> parts;                     ///< of each: which turn smoothly into each other
+  /// By vertices and parts, of length one; not finite where there is none.
+  std::map<std::array<int, 2>, SpacePoint> normals;
 };
 
 using RefinedTetrahedra = BisectedMesh<TetrahedronMesh, CurvedFaces>;
@@ -73,7 +74,8 @@ using RefinedTetrahedra = BisectedMesh<TetrahedronMesh, CurvedFaces>;
 /// Cuts the tetrahedra that are marked, and as many more as it takes. A new vertex of the boundary is put
 /// onto the arc over its edge that is perpendicular to the normals at both ends, or, where two parts meet in
 /// an edge, to those of both; back towards the chord where a half would have less than a quarter of its
-/// volume. Regions, labels and names go on.
+/// volume. Where there is no normal at one end the arc is symmetric. Regions, labels, names and what is known
+/// of boundaryNormals go on.
 /// \param marked  by tetrahedron
 RefinedTetrahedra bisect(const TetrahedronMesh& mesh, const CurvedFaces& curves,
                          const std::vector<char>& marked);

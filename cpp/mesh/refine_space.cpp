@@ -1,5 +1,6 @@
 #include "mesh/refine.h"
 
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -162,9 +163,12 @@ class SpaceBisection {
     if (parts.empty()) return;
     const SpacePoint d = place(edge[1]) - place(edge[0]);
     const SpacePoint sagitta = sagittaOver(edge, d, {parts.begin(), parts.end()});
-    for (const int part : parts)
-      result_.curves.normals[{m, part}] =
-          perpendicular(normal(edge[0], part) + normal(edge[1], part), d.normalized());
+    for (const int part : parts) {
+      SpacePoint sum = SpacePoint::Zero();
+      for (const int v : edge)
+        if (normal(v, part).allFinite()) sum += normal(v, part);
+      result_.curves.normals[{m, part}] = perpendicular(sum, d.normalized());
+    }
     if (sagitta.isZero(0)) return;
     const SpacePoint middle = place(m);
     for (const double share : {1.0, 0.5, 0.25, 0.0}) {
@@ -193,7 +197,11 @@ class SpaceBisection {
   [[nodiscard]] SpacePoint sagittaOver(const Edge& edge, const SpacePoint& d,
                                        const std::vector<int>& parts) const {
     std::array<SpacePoint, 2> tangents;
+    std::array<bool, 2> known{};
     for (int end = 0; end < 2; ++end) {
+      known[end] = std::all_of(parts.begin(), parts.end(),
+                               [&](int part) { return normal(edge[end], part).allFinite(); });
+      if (!known[end]) continue;
       SpacePoint own = normal(edge[end], parts[0]);
       if (parts.size() > 1) {
         const SpacePoint along = own.cross(normal(edge[end], parts[1]));
@@ -204,6 +212,11 @@ class SpaceBisection {
         own = (own + normal(edge[end], parts[1])).normalized();
       }
       tangents[end] = perpendicular(d, own);
+    }
+    const SpacePoint along = d.normalized();
+    for (int end = 0; end < 2; ++end) {
+      const SpacePoint& other = tangents[1 - end];
+      if (!known[end]) tangents[end] = known[1 - end] ? 2 * other.dot(along) * along - other : along;
     }
     return sagittaOf(d, tangents[0], tangents[1]);
   }
@@ -221,9 +234,26 @@ class SpaceBisection {
     mesh.boundaryLabels.clear();
     for (size_t i = 0; i < labelled_.count(); ++i)
       mesh.boundaryLabels.push_back(old_.boundaryLabels[labelled_.parent(static_cast<int>(i))]);
+    keepNormals();
     result_.curves.triangles = curved_.all();
     for (size_t i = 0; i < curved_.count(); ++i)
       result_.curves.parts.push_back(oldParts_[curved_.parent(static_cast<int>(i))]);
+  }
+
+  /// Those of the geometry at old vertices.
+  void keepNormals() {
+    std::vector<std::array<SpacePoint, 3>>& normals = result_.mesh.boundaryNormals;
+    normals.clear();
+    for (size_t i = 0; i < labelled_.count() && !old_.boundaryNormals.empty(); ++i) {
+      const auto parent = static_cast<size_t>(labelled_.parent(static_cast<int>(i)));
+      const auto& before = old_.boundaryTriangles[parent];
+      std::array<SpacePoint, 3>& own = normals.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        const auto at = std::find(before.begin(), before.end(), labelled_.all()[i][k]);
+        own[k] = at == before.end() ? SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN())
+                                    : old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
+      }
+    }
   }
 
   const TetrahedronMesh& old_;

@@ -59,7 +59,7 @@ void keepEdges(TriangleMesh& mesh, const Keep& keep) {
 
 template <class Keep>
 void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
-  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels);
+  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels, mesh.boundaryNormals);
 }
 
 /// \param elements  triangles or tetrahedra of the mesh
@@ -214,7 +214,8 @@ void takeGroups(TriangleMesh& mesh, const std::vector<std::string>& regions) {
 
 void takeGroups(TetrahedronMesh& mesh, const std::vector<std::string>& regions) {
   joinGroups(mesh.tetrahedra, mesh.regions, mesh.regionNames, mesh.sharedRegions);
-  joinGroups(mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels);
+  joinGroups(mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels,
+             mesh.boundaryNormals);
   if (regions.empty())
     dropInnerTriangles(mesh);
   else

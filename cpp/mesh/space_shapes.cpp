@@ -1,6 +1,7 @@
 #include "mesh/shape.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.h"
 
@@ -98,6 +99,17 @@ TetrahedronMesh roundMesh(const RoundBody& body) {
         break;
       }
   mesh.labelNames["round"] = 7;
+  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
+    std::array<SpacePoint, 3>& normals = mesh.boundaryNormals.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const SpacePoint x = mesh.vertices[mesh.boundaryTriangles[i][k]] - body.centre;
+      normals[k] = SpacePoint::Zero();
+      if (mesh.boundaryLabels[i] == 7)
+        normals[k].head(rounded) = x.head(rounded).normalized();
+      else
+        normals[k].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
   std::erase_if(mesh.labelNames, [&](const auto& named) {
     return std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), named.second) ==
            mesh.boundaryLabels.end();

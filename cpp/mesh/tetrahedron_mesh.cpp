@@ -132,6 +132,24 @@ int TriangleCount::operator()(const std::array<int, 3>& triangle) const {
   return static_cast<int>(last - first);
 }
 
+namespace {
+
+/// The normals of a boundary triangle in the order of the vertices that it is to have, outward.
+void turnNormals(TetrahedronMesh& mesh, size_t i, const std::array<int, 3>& outward) {
+  if (mesh.boundaryNormals.empty()) return;
+  const std::array<SpacePoint, 3> before = mesh.boundaryNormals[i];
+  const auto& [a, b, c] = outward;
+  const SpacePoint out = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  for (size_t k = 0; k < 3; ++k) {
+    const auto& old = mesh.boundaryTriangles[i];
+    const SpacePoint& n =
+        before[static_cast<size_t>(std::find(old.begin(), old.end(), outward[k]) - old.begin())];
+    mesh.boundaryNormals[i][k] = n.dot(out) < 0 ? SpacePoint(-n) : n;
+  }
+}
+
+}  // namespace
+
 void validate(TetrahedronMesh& mesh) {
   if (mesh.tetrahedra.empty())
     throw InputError(
@@ -166,6 +184,7 @@ void validate(TetrahedronMesh& mesh) {
     if (found == boundary.end() || found->sorted != sortedOf(triangle))
       throw InputError(here + " is labelled, but is not on the boundary");
     if (labelled[found - boundary.begin()]++ != 0) throw InputError(here + " is labelled twice");
+    turnNormals(mesh, i, found->outward);
     triangle = found->outward;
   }
 }

@@ -134,8 +134,8 @@ TEST(RefineSpace, dependsNeitherOnUnitsNorOnRotations) {
     TetrahedronMesh mesh = ball ? quarterBall(3) : cuboidMesh({{0, 0, 0}, {1.1, 0.7, 0.9}, {11, 7, 9}});
     TetrahedronMesh other = mesh;
     for (SpacePoint& v : other.vertices) v = 0.21 * (turn * v);
-    CurvedFaces curves = curvesBehind(mesh, {});
-    CurvedFaces otherCurves = curvesBehind(other, {});
+    CurvedFaces curves = curvesBehind(mesh);
+    CurvedFaces otherCurves = curvesBehind(other);
     std::mt19937 random(3);
     for (int round = 0; round < 6; ++round) {
       const std::vector<char> marks = randomMarks(mesh, random);
@@ -153,7 +153,7 @@ TEST(RefineSpace, dependsNeitherOnUnitsNorOnRotations) {
 }
 
 TEST(RefineSpace, planeBodiesHaveNoCurves) {
-  EXPECT_TRUE(curvesBehind(irregularBox(1), {}).triangles.empty());
+  EXPECT_TRUE(curvesBehind(irregularBox(1)).triangles.empty());
 }
 
 /// A column whose top is a part of the sphere of radius 1 about the origin.
@@ -166,11 +166,10 @@ TetrahedronMesh domed(int cells) {
 // Exact where the normals are: at sides of symmetry that are held, and inside. Normals where the sphere ends
 // at another side are less good; its circles there stay in their planes.
 TEST(RefineSpace, verticesOfASphereLieOnIt) {
-  const SpaceHeld mirrored = [](int, const SpacePoint& n) { return n.x() == -1 || n.y() == -1; };
   TetrahedronMesh mesh = domed(4);
   const double sagitta = 1 - std::cos(0.5 / 4 / 2 * 1.6);
   const double shape = worstShape(mesh);
-  CurvedFaces curves = curvesBehind(mesh, mirrored);
+  CurvedFaces curves = curvesBehind(mesh);
   std::mt19937 random(7);
   for (int round = 0; round < 7; ++round) {
     const std::vector<char> marks =
@@ -203,14 +202,14 @@ TEST(RefineSpace, verticesOfASphereLieOnIt) {
 // What has no label is a side of its own.
 TEST(RefineSpace, sidesWithoutLabelsAreCurvedToo) {
   TetrahedronMesh mesh = domed(4);
-  const CurvedFaces labelled = curvesBehind(mesh, {});
+  const CurvedFaces labelled = curvesBehind(mesh);
   TetrahedronMesh bare = mesh;
   for (size_t i = bare.boundaryTriangles.size(); i-- > 0;)
     if (bare.boundaryLabels[i] == 3) {
       bare.boundaryTriangles.erase(bare.boundaryTriangles.begin() + static_cast<std::ptrdiff_t>(i));
       bare.boundaryLabels.erase(bare.boundaryLabels.begin() + static_cast<std::ptrdiff_t>(i));
     }
-  const CurvedFaces without = curvesBehind(bare, {});
+  const CurvedFaces without = curvesBehind(bare);
   EXPECT_EQ(without.triangles.size(), labelled.triangles.size());
   const std::vector<char> all(mesh.tetrahedra.size(), 1);
   const RefinedTetrahedra one = bisect(mesh, labelled, all);
@@ -231,7 +230,7 @@ TEST(RefineSpace, noTetrahedronTurnsOver) {
     v = {-radius * std::cos(angle), radius * std::sin(angle), 0.05 * v.z()};
   }
   validate(mesh);
-  CurvedFaces curves = curvesBehind(mesh, {});
+  CurvedFaces curves = curvesBehind(mesh);
   std::mt19937 random(3);
   int offCurve = 0;
   for (int round = 0; round < 12; ++round) {
