@@ -36,7 +36,8 @@ void ContactSurface::findSides() {
 }
 
 /// Errors of normals at both ends of a side of length h make one of h/8 times their sum in its middle; the
-/// cubic over an arc that turns by an angle is off it by the square of that over 16 of its sagitta.
+/// cubic over an arc that turns by an angle is off it by the square of that over 16 of its sagitta. What heights
+/// of third degree are inside a triangle, up to 1/27, is not known from its sides.
 double ContactSurface::offsetError(int triangle) const {
   constexpr double parallel = 1e-9;
   double most = 0;
@@ -46,7 +47,8 @@ double ContactSurface::offsetError(int triangle) const {
     const double length = (places[triangle][(k + 1) % 3] - places[triangle][k]).norm();
     const double turn = (first.n - last.n).norm();
     const double sagitta = turn < parallel ? 0 : length * turn / 8;
-    most = std::max(most, length * (first.error + last.error) / 8 + sagitta * turn * turn / 16);
+    const double odd = sides_[triangle][k].odd.norm() / 27;
+    most = std::max(most, length * (first.error + last.error) / 8 + sagitta * turn * turn / 16 + odd);
   }
   return most;
 }
