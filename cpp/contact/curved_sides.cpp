@@ -36,8 +36,8 @@ void ContactSurface::findSides() {
 }
 
 /// Errors of normals at both ends of a side of length h make one of h/8 times their sum in its middle; the
-/// cubic over an arc that turns by an angle is off it by the square of that over 16 of its sagitta. What heights
-/// of third degree are inside a triangle, up to 1/27, is not known from its sides.
+/// cubic over an arc that turns by an angle is off it by the square of that over 16 of its sagitta. What
+/// heights of third degree are inside a triangle, up to 1/27, is not known from its sides.
 double ContactSurface::offsetError(int triangle) const {
   constexpr double parallel = 1e-9;
   double most = 0;

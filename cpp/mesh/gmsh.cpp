@@ -295,7 +295,7 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   TetrahedronMesh sides;
   std::vector<int> surfaces;
   addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames, &surfaces);
-  std::map<int, std::map<int, SpacePoint>> normals;  // by surfaces and vertices
+  std::map<int, std::map<int, SpacePoint> > normals;  // by surfaces and vertices
   for (const int surface : std::set<int>(surfaces.begin(), surfaces.end()))
     for (const auto& [node, normal] : normalsOn(gmsh, surface)) normals[surface][vertex(node)] = normal;
   mesh.vertices.resize(static_cast<size_t>(used));  // surfaces of no volume have others

@@ -113,8 +113,8 @@ class SweptVertices {
 
 const SpacePoint unknownNormal = SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// At the end `a` of a boundary edge to `b` in a plane mesh, by the circle through its middle; not finite where
-/// that is not known. \param right  whether outside is to the right of the way to b
+/// At the end `a` of a boundary edge to `b` in a plane mesh, by the circle through its middle; not finite
+/// where that is not known. \param right  whether outside is to the right of the way to b
 Point normalOfEdge(const TriangleMesh& plane, size_t e, int a, int b, bool right) {
   if (plane.edgeMiddles.empty() || plane.hasCurve(e)) return unknownNormal.head<2>();
   const Point along = plane.vertices[b] - plane.vertices[a];

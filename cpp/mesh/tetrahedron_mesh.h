@@ -25,8 +25,8 @@ struct TetrahedronMesh {
   std::map<int, std::vector<int>> sharedLabels = {};
   std::map<int, std::vector<int>> sharedRegions = {};
   std::string changed = {};  ///< what the reader made of other cells; empty: none were there
-  /// By boundary triangles and their vertices: outward normals of the geometry behind them, of length one; not
-  /// finite where that is not known. Empty: nowhere.
+  /// By boundary triangles and their vertices: outward normals of the geometry behind them, of length one;
+  /// not finite where that is not known. Empty: nowhere.
   std::vector<std::array<SpacePoint, 3>> boundaryNormals = {};
 };
 

@@ -159,13 +159,14 @@ def stack_tips(program):
 
 
 def disc_in_groove(program):
-    """A disc that nothing but friction keeps from turning, pressed into a groove by its weight of 20 an area:
-    places of contact move as it turns, and repetitions swing about the state."""
+    """A disc that nothing but friction keeps from turning, pressed into a groove by its weight of 20 an
+    area: places of contact move as it turns, and repetitions swing about the state."""
     faults = []
     groove = [(-1.5, 1.5), (0, 0), (1.5, 1.5), (1.5, -1), (-1.5, -1)][::-1]
-    for degree, cells, outer in ((1, (48, 4), 0.8), (2, (96, 8), 0.8), (1, (96, 8), 0.8), (1, (64, 5), 0.6)):
-        mesh = (f'{{ shape = "annulus", centre = [0, {outer * math.sqrt(2)!r}], inner = 0.3, outer = {outer}, '
-                f'span = "full", cells = {list(cells)} }}')
+    cases = ((1, [48, 4], 0.8), (2, [96, 8], 0.8), (1, [96, 8], 0.8), (1, [64, 5], 0.6))
+    for degree, cells, outer in cases:
+        mesh = (f'{{ shape = "annulus", centre = [0, {outer * math.sqrt(2)!r}], inner = 0.3, '
+                f'outer = {outer}, span = "full", cells = {cells} }}')
         text = (f"degree = {degree}\n" + PLANE + body("disc", mesh, [], more='force = { y = "-20*t" }\n')
                 + polygon("v", groove, "", [3, 4, 1, 1, 2])
                 + contact(("disc", 2), ("v", 1), friction=0.2, sliding="finite")
@@ -178,4 +179,5 @@ def disc_in_groove(program):
     return faults
 
 
-SCENES = (disc_in_groove, ring_on_line, ring_on_floor, disc_between_platens, disc_falls, spline_leaves_corner, stack_tips)
+SCENES = (disc_in_groove, ring_on_line, ring_on_floor, disc_between_platens, disc_falls,
+          spline_leaves_corner, stack_tips)

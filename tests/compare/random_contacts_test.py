@@ -19,8 +19,8 @@ class RandomContacts(unittest.TestCase):
         self.examine(corner_forces, range(1, 21))
 
     def test_forces_are_those_of_the_scene_in_other_words(self):
-        # 144: a part that faces by a corner alone, whose ends are held. The others: corners of the mortar line
-        # whose other side faces nothing.
+        # 144: a part that faces by a corner alone, whose ends are held. The others: corners of the mortar
+        # line whose other side faces nothing.
         self.examine(metamorphic, (*range(1, 10), 60, 101, 144, 218, 244))
 
     def test_tools_are_pressed_without_hidden_overlap(self):

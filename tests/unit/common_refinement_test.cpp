@@ -112,7 +112,7 @@ TEST(CommonRefinement, aCornerOnASlopeHasTheNormalOfTheSlope) {
   }
 }
 
-// The top of a table alone, or its whole outline: the sides behind its corners turn away from a ring above it.
+// The top of a table alone, or its whole outline: sides behind its corners turn away from a ring above.
 TEST(CommonRefinement, sidesThatNothingFacesChangeNoDirection) {
   for (const double half : {0.8, 1.05, 1.4}) {
     const SmoothPart part = smoothParts(lineThrough(circle(24, {0, 1.01}, 1), true)).front();
