@@ -261,7 +261,7 @@ class Surface {
         const SpacePoint scaled = points[row] / radius;
         const double x = scaled.dot(t1), y = scaled.dot(t2), z = scaled.dot(result.n);
         const double weight = 1 / scaled.squaredNorm();
-        own.row(row) << x, y, x * x, x * y, y * y;
+        own.row(row) << x, y, x * x + z * z / 2, M_SQRT2 * x * y, y * y + z * z / 2;
         own.row(row) *= weight;
         others.row(row) << x * z, y * z, z * z;
         others.row(row) *= weight;
@@ -272,8 +272,9 @@ class Surface {
       if (first.rank() < 2) return {guess, false, turn / 2};
       const Eigen::Index rank = first.rank();
       const Matrix basis = first.matrixU().leftCols(rank);
-      for (Eigen::Index c = 0; c < 3; ++c)
-        if (const double size = others.col(c).norm(); size > 0) others.col(c) /= size;
+      // What turns t1 and t2 mixes the first two.
+      if (const double size = others.leftCols(2).norm(); size > 0) others.leftCols(2) /= size;
+      if (const double size = others.col(2).norm(); size > 0) others.col(2) /= size;
       const Matrix left = others - basis * (basis.transpose() * others);
       const Vector heightsLeft = heights - basis * (basis.transpose() * heights);
       const Eigen::JacobiSVD<Matrix> second(left, Eigen::ComputeThinU | Eigen::ComputeThinV);

@@ -1,10 +1,13 @@
 // The curved surface behind the boundary of a mesh of tetrahedra.
 //
 // Its normals at vertices are those of the geometry where the mesh has them (boundaryNormals). Elsewhere
-// they are those of quadrics z = a x + b y + c x^2 + d x y + e y^2 + z (f x + g y + h z) through the vertex,
-// with z along its normal, fitted to the neighbours of two rings by least squares: exact on all surfaces of
-// second degree where the neighbours tell them from others; what these cannot tell of f, g and h is 0. A
-// vertex where no such surface passes, as the apex of a cone, has no normal.
+// they are those of quadrics
+//
+//   z = a x + b y + c (x^2 + z^2/2) + d x y + e (y^2 + z^2/2) + z (f x + g y + h z)
+//
+// through the vertex, with z along its normal, fitted to the neighbours of two rings by least squares: exact
+// on all surfaces of second degree where the neighbours tell them from others; what these cannot tell of f, g
+// and h is 0, as on a sphere. A vertex where no such surface passes, as the apex of a cone, has no normal.
 //
 // Labels and supports do not matter. Surfaces end at corners, as the lines of a plane mesh (smooth_part.h):
 // at edges that turn by more than 40 degrees, or by more than one degree and more than four times as much,

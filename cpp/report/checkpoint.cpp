@@ -76,7 +76,7 @@ void requireFile(const std::string& folder, const std::string& name, const FileR
 
 uint64_t hashOf(const TetrahedronMesh& mesh) {
   return hashOfLists(mesh.vertices, mesh.tetrahedra, mesh.regions, mesh.boundaryTriangles,
-                     mesh.boundaryLabels);
+                     mesh.boundaryLabels, mesh.boundaryNormals);
 }
 
 uint64_t hashOf(const TriangleMesh& mesh) {

@@ -8,6 +8,7 @@
 #include "material/overstress.h"
 #include "material/perzyna.h"
 #include "mesh/generate.h"
+#include "mesh/shape.h"
 #include "solver/methods.h"
 #include "solver/solve_step.h"
 #include "time/march.h"
