@@ -102,18 +102,27 @@ void shareNormals(ContactSurface& one, ContactSurface& other) {
       const SpacePoint& place = one.places[t][k];
       const SurfaceNormal own = one.vertexNormals[t][k];
       SurfaceNormal shared = own;
+      // At a ridge several normals meet: that of the side which is most nearly opposite.
+      const SurfaceNormal* best = nullptr;
+      std::vector<const Corner*> matching;
       for (auto at = std::lower_bound(corners.begin(), corners.end(), direction.dot(place) - near, before);
            at != corners.end() && at->x <= direction.dot(place) + near; ++at) {
         const SurfaceNormal& theirs = other.vertexNormals[at->triangle][at->k];
         if ((other.places[at->triangle][at->k] - place).norm() > near || theirs.n.dot(own.n) > opposite ||
             (!own.known && !theirs.known))
           continue;
-        const SpacePoint turned = -theirs.n;
-        if (own.known == theirs.known && own.error == theirs.error)
+        matching.push_back(&*at);
+        if (best == nullptr || theirs.n.dot(own.n) < best->n.dot(own.n)) best = &theirs;
+      }
+      if (best != nullptr) {
+        const SpacePoint turned = -best->n;
+        if (own.known == best->known && own.error == best->error)
           shared.n = (own.n + turned).normalized();
-        else if (theirs.known && (!own.known || theirs.error < own.error))
-          shared = {turned, true, theirs.error};
-        across[at->triangle][at->k] = {-shared.n, shared.known, shared.error};
+        else if (best->known && (!own.known || best->error < own.error))
+          shared = {turned, true, best->error};
+        for (const Corner* at : matching)
+          if ((other.vertexNormals[at->triangle][at->k].n - best->n).norm() <= onePlace)
+            across[at->triangle][at->k] = {-shared.n, shared.known, shared.error};
         any = true;
       }
       one.vertexNormals[t][k] = shared;

@@ -150,6 +150,7 @@ TEST(SpacePatch, roofAndStep) {
     for (const bool upper : {true, false})
       for (const auto& [coupling, degree] : exactCouplings)
         for (const bool tilted : {false, true}) {
+          SCOPED_TRACE(slope);
           Case of{coupling, degree, upper};
           of.map = [=](const SpacePoint& x) {
             const SpacePoint roof(x.x(), x.y(), x.z() + slope * std::abs(x.x() - 0.5));
