@@ -194,6 +194,7 @@ class Directions {
   /// Where w and what is faced do not settle: a steep side is far off, and the ray jumps to and fro over its
   /// end. The share w(hit) falls to 0 towards that end, so that it equals w in between.
   Point besideCorner(int i, const LineHit& first, LineHit& hit) {
+    const double toFirst = toCorner(i, first);
     constexpr int halvings = 50;
     const Point n2 = mortar_.normalAt(first.element, first.xi);
     const double curvature = mortar_.curvatureAt(first.element, first.xi);
@@ -207,7 +208,8 @@ class Directions {
       const LineHit there = mortar_.along(part_.points[i], ray(middle));
       const bool samePart =
           there.found() && mortar_.geometry[there.element].part == mortar_.geometry[first.element].part;
-      const bool isBelow = samePart && mortarShare(i, curvature, toCorner(i, there)) > middle;
+      const bool isBelow =
+          samePart && mortarShare(i, curvature, std::min(toFirst, toCorner(i, there))) > middle;
       (isBelow ? share : above) = middle;
     }
     shares_[i] = share;

@@ -64,7 +64,7 @@ std::vector<Vector> incrementsOf(const Iterate& iterate) {
   return result;
 }
 
-Vector joined(const std::vector<Vector>& parts) {
+Vector inOne(const std::vector<Vector>& parts) {
   Eigen::Index size = 0;
   for (const Vector& part : parts) size += part.size();
   Vector result(size);
@@ -80,11 +80,11 @@ Vector joined(const std::vector<Vector>& parts) {
 class Repetitions {
  public:
   /// \param rows  increments of the bodies where the rows are [m]
-  explicit Repetitions(std::vector<Vector> rows) : rows_(std::move(rows)), at_(joined(rows_)) {}
+  explicit Repetitions(std::vector<Vector> rows) : rows_(std::move(rows)), at_(inOne(rows_)) {}
 
   /// Takes the increments that were found with the rows.
   void add(const std::vector<Vector>& found) {
-    const Vector before = std::exchange(change_, joined(found) - at_);
+    const Vector before = std::exchange(change_, inOne(found) - at_);
     const double square = change_.squaredNorm();
     along_ = before.size() > 0 ? change_.dot(before) : 0;
     approaches_ = square < square_;
