@@ -121,7 +121,7 @@ FAULTS = [
     ("tractions on a section", "supports", "qfe = qf1pElump)(depth*(load)/3.)", "qfe = qf1pElump)((load)/3.)",
      "sloped", "a cone that flows", "displacement"),
     ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),
-    ("tangent turned the other way", "coupling", "second ? 0 - entryV(e) : entryV(e)",
+    ("tangent turned the other way", "rows", "second ? 0 - entryV(e) : entryV(e)",
      "second ? entryV(e) : 0 - entryV(e)", "sloped", "mortar friction", "friction"),
     ("slip from the beginning", "loop", "g0(i) = Cu(i)", "g0(i) = 0*Cu(i)", "sloped", "mortar friction", ""),
     ("bound of pressures for forces", "friction", "*rowLength(normalOf(row))", "*1", "stack",
