@@ -200,10 +200,11 @@ std::string script(const SceneDescription& scene, const Model& model,
     return body.material.as<OwnLaw>() != nullptr;
   });
   const std::vector<std::string> parts =
-      scene.inSpace() ? std::vector<std::string>{"space", "space_surfaces", "space_contact", "space_steps"}
-                      : std::vector<std::string>{"bodies",  "strain",   "supports", "lines",   "coupling",
-                                                 "rows",    "friction", "system",   "own_law", "law",
-                                                 "contact", "picture",  "loop"};
+      scene.inSpace()
+          ? std::vector<std::string>{"space", "space_surfaces", "space_yield", "space_contact", "space_steps"}
+          : std::vector<std::string>{"bodies",  "strain",   "supports", "lines",   "coupling",
+                                     "rows",    "friction", "system",   "own_law", "law",
+                                     "contact", "picture",  "loop"};
   for (const std::string& part : parts) {
     if (part == "own_law" && !own) continue;
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")

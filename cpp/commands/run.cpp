@@ -183,10 +183,10 @@ void Run::addVerdict() {
     facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
     for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
       facts.doubts.push_back(doubt);
-    for (const std::string& doubt :
-         contactDoubts(*attempt_->model, solved.state, solved.report.peaks.contactForce.value))
-      facts.doubts.push_back(doubt);
   }
+  for (const std::string& doubt :
+       contactDoubts(*attempt_->model, solved.state, solved.report.peaks.contactForce.value))
+    facts.doubts.push_back(doubt);
   if (const RunReport& report = solved.report;
       report.peaks.contactForce.value == 0 && !report.overlap.explained)
     facts.doubts.push_back(report.overlap.words);

@@ -99,6 +99,8 @@ struct SpaceInterfaceOptions {
   Held mortarHeld = {};
   SpaceDatum gap = {};  ///< distance at a nonmortar node instead of that as meshed [m]
   bool gapMoves = false;
+  double mortarCompliance = 0;  ///< of the mortar body in a half-space, (1 - nu^2)/E [1/Pa]
+  bool stabilised = false;
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
@@ -190,7 +192,7 @@ class ContactInterface {
   [[nodiscard]] bool stabilised() const { return stabilised_; }
   [[nodiscard]] bool yields() const { return compliance_.nonZeros() > 0; }
   void stopYielding() { compliance_.setZero(); }
-  /// Distance of the mortar nodes at the rows; none where the mortar side is held, or in space [m].
+  /// Distance of the mortar nodes at the rows; none where the mortar side is held [m].
   [[nodiscard]] const Vector& mortarSpacing() const { return mortarSpacing_; }
   [[nodiscard]] Vector yielded(const Vector& p) const { return compliance_ * p; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
@@ -198,6 +200,9 @@ class ContactInterface {
   /// By how much the lines may be off the curves behind them where these are not known and the distance is
   /// that as meshed: the largest sagitta [m].
   [[nodiscard]] double sagitta() const { return sagitta_; }
+  /// Of interpolation in space: by which part of the largest the nodal forces of a uniform pressure are off on
+  /// the mortar side; 0 where they are exact [-].
+  [[nodiscard]] double patchError() const { return patchError_; }
   /// The sharpest turn of a line whose nodes lie on a circle, but too far apart to stand for it; 0 where
   /// neither does [rad].
   [[nodiscard]] double polygonTurn() const { return polygonTurn_; }
@@ -237,7 +242,7 @@ class ContactInterface {
     std::vector<SpacePoint> normals;
     Vector areas;      ///< of the cells [m^2]
     Vector distances;  ///< of the bodies at t = 0 [m]
-    Vector sizes;      ///< of the nonmortar triangles: a side [m]
+    std::array<Vector, 2> sizes;  ///< of the triangles of both sides: an edge [m]
 
     /// u1 - u2 at the points: 3 x points [m].
     [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar) const;
@@ -297,6 +302,7 @@ class ContactInterface {
   Vector lengths_;
   double overlap_ = 0;
   double sagitta_ = 0;
+  double patchError_ = 0;
   double polygonTurn_ = 0;
   int heldEnds_ = 0;
   PenetrationIntegral penetration_;

@@ -1,8 +1,10 @@
 #include "contact/pressure_compliance.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace mortier {
 namespace {
@@ -75,13 +77,78 @@ void forEachImage(const std::vector<Place>& places, double mirror, double range,
     }
 }
 
+/// h2 of a surface, the geometric mean of its directions [m].
+double spacingOf(const Eigen::Matrix3d& spacing) {
+  const double trace = spacing.trace();
+  return std::sqrt(std::sqrt(std::max(0.0, (trace * trace - (spacing * spacing).trace()) / 2)));
+}
+
+/// |way|/h2 in the direction of the way, along the surface.
+double partOf(const Eigen::Matrix3d& spacing, const SpacePoint& normal, const SpacePoint& way) {
+  if (way.isZero(0)) return 0;
+  const SpacePoint n = normal.normalized();
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - n * n.transpose();
+  const double size = spacing.trace();
+  if (!(size > 0)) return infinity;
+  const SpacePoint along = P * way;
+  const Eigen::Matrix3d whole = P * spacing * P + size * n * n.transpose();
+  return std::sqrt(along.dot(whole.inverse() * along));
+}
+
+/// A row, and one whose pressure is compared with its own.
+struct NearRow {
+  int row = 0, other = 0;
+  double area = 0;    ///< k l l of the pair, over a length in space; 0 where another entry has it [m^2]
+  double weight = 0;  ///< of the other row in the means of the row
+  Eigen::Vector2d way{0, 0};  ///< to it, over the distance of the mortar nodes
+};
+
+/// The values at rows of the linear functions that fit the pressures near them best.
+Eigen::SparseMatrix<double> linearFits(Eigen::Index n, const std::vector<NearRow>& near) {
+  constexpr double rounding = 1e-12;
+  const auto termsOf = [](const NearRow& pair) { return Eigen::Vector3d(1, pair.way.x(), pair.way.y()); };
+  std::vector<Eigen::Matrix3d> moments(n, Eigen::Matrix3d::Zero());
+  for (const NearRow& pair : near) {
+    const Eigen::Vector3d terms = termsOf(pair);
+    moments[pair.row] += pair.weight * terms * terms.transpose();
+  }
+  std::vector<Eigen::Vector3d> atRow;
+  Eigen::CompleteOrthogonalDecomposition<Matrix> factors;
+  factors.setThreshold(rounding);  // on a line, and where few rows are near, some slopes are not known
+  for (const Eigen::Matrix3d& each : moments)
+    atRow.emplace_back(factors.compute(each).solve(Eigen::Vector3d::UnitX()));
+  Triplets entries;
+  for (const NearRow& pair : near)
+    entries.emplace_back(pair.row, pair.other, pair.weight * termsOf(pair).dot(atRow[pair.row]));
+  return assembled(n, n, entries);
+}
+
+/// \param ofMissing  times 1/E2
+void assemble(const std::vector<NearRow>& near, const Vector& weights, double ofMissing,
+              PressureCompliance& result) {
+  const Eigen::Index n = weights.size();
+  Triplets entries;
+  for (const auto& [i, j, area, weight, way] : near) {
+    if (!(area > 0)) continue;
+    const double a = ofMissing * area;
+    for (const int row : {i, j})
+      for (const int column : {i, j})
+        entries.emplace_back(row, column, (row == column ? a : -a) / (weights[row] * weights[column]));
+  }
+  if (entries.empty()) return;
+  result.S = assembled(n, n, entries);
+  result.means = linearFits(n, near);
+}
+
+/// With c = 0.4 a force on one node of a line gets about the compliance that the mortar mesh lacks.
+constexpr double ofMissing = 0.4;
+
 }  // namespace
 
 PressureCompliance pressureCompliance(const CommonRefinement& refinement, const std::vector<int>& nodes,
                                       const Vector& weights, const Vector& lengths,
                                       const std::vector<double>& mirrors, double compliance) {
   const SmoothPart& part = refinement.part();
-  constexpr double ofMissing = 0.4;
   constexpr double rounding = 1e-12;
   const auto n = static_cast<Eigen::Index>(nodes.size());
   PressureCompliance result{{n, n}, {n, n}, Vector::Zero(n)};
@@ -91,49 +158,94 @@ PressureCompliance pressureCompliance(const CommonRefinement& refinement, const 
   const double around = part.closed ? part.length() : 0;
   for (int row = 0; row < n; ++row) result.spacing[row] = spacing.at(nodes[row]);
   const double largest = weights.maxCoeff();
-  Triplets entries;
-  Triplets near;  // pairs within h2, with the distance of the second along the line
-  Matrix moments = Matrix::Zero(n, 3);
-  const auto addNear = [&](int row, int of, double along) {
-    const double weight = (1 - std::abs(along) / result.spacing[row]) * lengths[of];
-    if (!(weight > 0)) return;
-    near.emplace_back(row, of, along);
-    moments.row(row) += weight * Eigen::RowVector3d(1, along, along * along);
-  };
-  for (int i = 0; i < n; ++i) addNear(i, i, 0);
-  const auto add = [&](int i, int j, double distance) {
-    const double h = (result.spacing[i] + result.spacing[j]) / 2;
+  std::vector<NearRow> near;
+  const auto add = [&](int row, int of, double along, bool once) {
+    const double h = (result.spacing[row] + result.spacing[of]) / 2;
+    const double own = result.spacing[row];
     // The weight of a quadratic node on the axis is zero but for rounding.
-    if (distance < h && std::min(weights[i], weights[j]) > rounding * largest) {
-      const double depth = std::sqrt(weights[i] / lengths[i] * weights[j] / lengths[j]);
-      const double a = ofMissing * compliance * (1 - distance / h) * lengths[i] * lengths[j] * depth;
-      for (const int row : {i, j})
-        for (const int column : {i, j})
-          entries.emplace_back(row, column, (row == column ? a : -a) / (weights[row] * weights[column]));
-    }
+    const bool counts = once && std::min(weights[row], weights[of]) > rounding * largest;
+    const double depth = std::sqrt(weights[row] / lengths[row] * weights[of] / lengths[of]);
+    near.push_back({row,
+                    of,
+                    counts ? std::max(0.0, 1 - std::abs(along) / h) * lengths[row] * lengths[of] * depth : 0,
+                    std::max(0.0, 1 - std::abs(along) / own) * lengths[of],
+                    {along / own, 0}});
   };
   const double range = result.spacing.maxCoeff();
+  for (int i = 0; i < n; ++i) add(i, i, 0, false);
   forEachPair(places, around, range, [&](int i, int j, double distance) {
-    add(i, j, distance);
-    addNear(i, j, distance);
-    addNear(j, i, -distance);
+    add(i, j, distance, true);
+    add(j, i, -distance, false);
   });
   for (const double mirror : mirrors)
-    forEachImage(places, mirror, range, [&](int i, int j, double along) {
-      if (i < j) add(i, j, std::abs(along));
-      addNear(i, j, along);
-    });
-  if (entries.empty()) return result;
-  for (auto& pair : near) {  // the value there of the linear function that fits those pressures best
-    const auto m = moments.row(pair.row());
-    const double weight = (1 - std::abs(pair.value()) / result.spacing[pair.row()]) * lengths[pair.col()];
-    const double whole = m[0] * m[2] - m[1] * m[1];
-    const double share =
-        whole > rounding * m[0] * m[2] ? weight * (m[2] - m[1] * pair.value()) / whole : weight / m[0];
-    pair = {pair.row(), pair.col(), share};
+    forEachImage(places, mirror, range, [&](int i, int j, double along) { add(i, j, along, i < j); });
+  assemble(near, weights, ofMissing * compliance, result);
+  return result;
+}
+
+SurfaceSpacing::SurfaceSpacing(const ContactSurface& surface) : surface_(surface) {
+  std::map<int, double> triangles;
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.places[t];
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const SpacePoint& edge : {SpacePoint(b - a), SpacePoint(c - b), SpacePoint(a - c)})
+      sum += edge * edge.transpose();
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = surface.triangles[t][k];
+      const auto [at, first] = atVertices_.try_emplace(vertex, Eigen::Matrix3d::Zero());
+      at->second += 2.0 / 3 / (surface.degree * surface.degree) * sum;
+      ++triangles[vertex];
+    }
   }
-  result.S = assembled(n, n, entries);
-  result.means = assembled(n, n, near);
+  for (auto& [vertex, tensor] : atVertices_) tensor /= triangles[vertex];
+}
+
+Eigen::Matrix3d SurfaceSpacing::at(const RayHit& hit) const {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  for (int k = 0; hit.triangle >= 0 && k < 3; ++k)
+    result += std::clamp(hit.mu[k], 0.0, 1.0) * atVertices_.at(surface_.triangles[hit.triangle][k]);
+  return result;
+}
+
+PressureCompliance pressureCompliance(const std::vector<SurfaceRow>& rows, const Vector& areas,
+                                      double compliance) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  PressureCompliance result{{n, n}, {n, n}, Vector::Zero(n)};
+  if (!(compliance > 0)) return result;
+  for (Eigen::Index i = 0; i < n; ++i) result.spacing[i] = spacingOf(rows[i].spacing);
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(rows[i].place.x(), i) < std::pair(rows[j].place.x(), j); });
+  std::vector<NearRow> near;
+  const auto add = [&](int i, int j, bool once) {
+    const SurfaceRow& row = rows[i];
+    const SpacePoint way = rows[j].place - row.place;
+    const Eigen::Matrix3d mean = (row.spacing + rows[j].spacing) / 2;
+    const double own = std::max(0.0, 1 - partOf(row.spacing, row.normal, way));
+    const double k = once ? std::max(0.0, 1 - partOf(mean, row.normal + rows[j].normal, way)) : 0;
+    if (!(own > 0) && !(k > 0)) return;
+    const SpacePoint across = row.normal.unitOrthogonal();
+    const Eigen::Vector2d along(way.dot(across), way.dot(row.normal.cross(across)));
+    near.push_back({i, j, k > 0 ? k * areas[i] * areas[j] / spacingOf(mean) : 0, own * areas[j],
+                    along * (own > 0 ? 1 / result.spacing[i] : 0)});
+  };
+  double range = 0;
+  for (const SurfaceRow& row : rows) range = std::max(range, std::sqrt(row.spacing.trace()));
+  for (Eigen::Index a = 0; a < n; ++a) {
+    if (result.spacing[order[a]] > 0) add(order[a], order[a], false);
+    for (Eigen::Index b = a + 1; b < n; ++b) {
+      const int i = order[a];
+      const int j = order[b];
+      const SpacePoint way = rows[j].place - rows[i].place;
+      if (!(way.x() < range)) break;
+      if (rows[i].part != rows[j].part || !(way.squaredNorm() < range * range)) continue;
+      add(i, j, true);
+      add(j, i, false);
+    }
+  }
+  // In space the integral of k/h over the disc of radius h is pi/3 h, that over the line h.
+  assemble(near, areas, 3 / M_PI * ofMissing * compliance, result);
   return result;
 }
 

@@ -16,10 +16,12 @@
 // fit those within h2 best, with the weights k_ij l_j: linear pressures stay as they are.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "base/sparse.h"
 #include "contact/common_refinement.h"
+#include "contact/surface.h"
 
 namespace mortier {
 
@@ -37,5 +39,33 @@ struct PressureCompliance {
 PressureCompliance pressureCompliance(const CommonRefinement& refinement, const std::vector<int>& nodes,
                                       const Vector& weights, const Vector& lengths,
                                       const std::vector<double>& mirrors, double compliance);
+
+/// The distances h2 of the nodes of a surface, by direction: tensors H with e . H^-1 e = 1 for the edges e
+/// between nodes; at vertices the means of the triangles around, linear between [m^2].
+class SurfaceSpacing {
+ public:
+  explicit SurfaceSpacing(const ContactSurface& surface);
+  /// \returns zero where a ray has met nothing
+  [[nodiscard]] Eigen::Matrix3d at(const RayHit& hit) const;
+
+ private:
+  const ContactSurface& surface_;
+  std::map<int, Eigen::Matrix3d> atVertices_;
+};
+
+/// A row of a surface.
+struct SurfaceRow {
+  SpacePoint place{0, 0, 0};  ///< of its vertex [m]
+  SpacePoint normal{0, 0, 0};
+  int part = 0;  ///< rows of one smooth part are compared
+  /// Of the mortar surface there, 0 where it is held.
+  Eigen::Matrix3d spacing = Eigen::Matrix3d::Zero();
+};
+
+/// The same of a surface, with h2 in the direction from row to row:
+///   p'S p = 3/pi c/E2 sum_(i<j) k_ij A_i A_j/h2 (pi_i - pi_j)^2.
+/// \param areas  integrals of the row functions [m^2]
+PressureCompliance pressureCompliance(const std::vector<SurfaceRow>& rows, const Vector& areas,
+                                      double compliance);
 
 }  // namespace mortier

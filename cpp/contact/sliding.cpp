@@ -116,9 +116,9 @@ Sliding slidingInSpace(const ContactInterface& interface, const Vector& uNonmort
     if (!(pressed[i] > 0)) continue;
     const SpacePoint& n = points.normals[i];
     const double slip = (jump.col(i) - n.dot(jump.col(i)) * n).norm();
-    if (slip / points.sizes[i] <= most.edges) continue;
+    if (slip / points.sizes[0][i] <= most.edges) continue;
     most.slip = slip;
-    most.edges = slip / points.sizes[i];
+    most.edges = slip / points.sizes[0][i];
   }
   return most;
 }

@@ -123,7 +123,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   });
   std::vector<RayHit> hits;
   std::vector<double> distances;
-  std::vector<SpacePoint> places;
+  std::vector<SurfaceRow> surfaceRows;
+  const SurfaceSpacing spacing(mortar);
+  const auto mortarIsHeld = [&](const RayHit& hit, const SpacePoint& n) {
+    bool all = hit.triangle >= 0 && options.mortarHeld;
+    for (int k = 0; k < 3 && all; ++k) all = options.mortarHeld(mortar.triangles[hit.triangle][k], n);
+    return all;
+  };
   for (auto& [key, vertex] : vertices) {
     if (!vertex.faces) continue;
     const SpacePoint n = contactNormal(vertex);
@@ -144,7 +150,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.spaceNormals_.push_back(n);
     hits.push_back(hit);
     distances.push_back(hit.triangle < 0 ? infinity : hit.delta + n.dot(mortar.offset(hit.triangle, hit.mu)));
-    places.push_back(vertex.place);
+    surfaceRows.push_back(
+        {vertex.place, n, key.second, mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : spacing.at(hit)});
   }
   shareFunctions(vertices);
   const auto rows = static_cast<Eigen::Index>(result.nonmortarNodes_.size());
@@ -159,7 +166,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   Vector distance = Vector::Zero(rows);
   Vector least = Vector::Constant(rows, infinity);
   result.lengths_ = Vector::Zero(rows);
-  std::vector<double> areas, gaps, sizes;
+  std::vector<double> areas, gaps;
+  std::array<std::vector<double>, 2> sizes;
   std::vector<DistanceError> errors;
   const auto add = [](Triplets& entries, Eigen::Index row, int node, double value, const SpacePoint& n) {
     for (int c = 0; c < 3; ++c)
@@ -170,6 +178,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     const auto& x = nonmortar.places[each.nonmortar];
     const SpacePoint& n = directions[each.nonmortar];
     const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    const auto& x2 = mortar.places[each.mortar];
+    const double mortarSize = std::sqrt((x2[1] - x2[0]).cross(x2[2] - x2[0]).norm());
     std::vector<int> own;  // rows whose functions are not 0 on this triangle
     std::array<const VertexFacts*, 3> corners;
     for (int k = 0; k < 3; ++k) {
@@ -227,7 +237,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         gaps.push_back(delta);
       });
       areas.push_back(area);
-      sizes.push_back(std::sqrt(twiceArea));
+      sizes[0].push_back(std::sqrt(twiceArea));
+      sizes[1].push_back(mortarSize);
       result.points_.normals.push_back(n);
     }
     errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
@@ -255,7 +266,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.points_.rows = assembled(faced, rows, functions);
   result.points_.areas = Eigen::Map<const Vector>(areas.data(), faced);
   result.points_.distances = Eigen::Map<const Vector>(gaps.data(), faced);
-  result.points_.sizes = Eigen::Map<const Vector>(sizes.data(), faced);
+  for (size_t s = 0; s < 2; ++s) result.points_.sizes[s] = Eigen::Map<const Vector>(sizes[s].data(), faced);
   result.overlap_ = result.points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
   if (pair.coupling == CouplingKind::weighted) {
@@ -278,6 +289,11 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.C1_ = assembled<ConstraintRows>(rows, columns1, own);
     result.C2_ = assembled<ConstraintRows>(rows, columns2, opposite);
     result.distance_ = Eigen::Map<const Vector>(distances.data(), rows);
+    if (!projects) {
+      const Vector exact = assembled<ConstraintRows>(rows, columns2, M).transpose() * Vector::Ones(rows);
+      const Vector off = result.C2_.transpose() * result.weights_ - exact;
+      result.patchError_ = off.cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+    }
     if (projects) {
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(result.mass_);
       const auto projected = [&](Eigen::Index columns, const Triplets& entries) {
@@ -300,6 +316,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       result.distance_ = mean.cwiseMax(least.cwiseMin(result.distance_));
     }
   }
+  if (pair.coupling != CouplingKind::interpolation) {
+    PressureCompliance yielding = pressureCompliance(surfaceRows, result.lengths_, options.mortarCompliance);
+    result.stabilised_ = options.stabilised;
+    if (options.stabilised) result.compliance_ = std::move(yielding.S);
+    result.means_ = std::move(yielding.means);
+    result.mortarSpacing_ = std::move(yielding.spacing);
+  }
   std::set<int> mortarNodes;
   for (const auto& triangle : mortar.triangles)
     mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
@@ -320,25 +343,6 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.points_.distances = result.pointDistances(0);
   if (!options.gapMoves) result.gapInTime_ = {};
   return result;
-}
-
-double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t) const {
-  if (dimension_ == 2) return penetration_.of(uNonmortar, uMortar, nodalGap(t));
-  const Matrix jump = points_.jump(uNonmortar, uMortar);
-  const Vector apart = pointDistances(t);
-  double sum = 0;
-  for (Eigen::Index i = 0; i < jump.cols(); ++i)
-    sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - apart[i]);
-  return sum;
-}
-
-Vector ContactInterface::pointDistances(double t) const {
-  return distanceMoves() ? Vector(points_.traces[0] * nodalGap(t)) : points_.distances;
-}
-
-Matrix ContactInterface::SurfacePoints::jump(const Vector& uNonmortar, const Vector& uMortar) const {
-  const auto byNodes = [](const Vector& u) { return u.reshaped(3, u.size() / 3).transpose(); };
-  return (traces[0] * byNodes(uNonmortar) - traces[1] * byNodes(uMortar)).transpose();
 }
 
 }  // namespace mortier

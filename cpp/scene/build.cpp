@@ -181,6 +181,9 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
       options.gapInSpace = finiteInSpace(*contact.gap);
       options.gapMoves = contact.gap->inTime;
     }
+    options.stabilised = contact.stabilised;
+    options.mortarCompliance =
+        surfaceCompliance(scene, contact.mortar(), model.bodies[pair.mortar.body].space()->mesh());
     return addAt(contact, [&] {
       addInterface(model, pair, options);
       requireMemory(memoryNeed(model, scene.solver), false);

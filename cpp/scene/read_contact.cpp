@@ -92,15 +92,13 @@ void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
 
 /// Conditions are stabilised where the scene leaves the choice of rows to the program.
 void readStabilised(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
-  const bool other =
-      contact.variant == CouplingKind::interpolation || scene.accuracy.bound || scene.inSpace();
+  const bool other = contact.variant == CouplingKind::interpolation || scene.accuracy.bound;
   contact.stabilised =
       table.has("stabilised") ? table.boolean("stabilised") : !table.has("variant") && !other;
   if (!contact.stabilised || !other) return;
   table.reject("stabilised", contact.variant == CouplingKind::interpolation
                                  ? "false with variant = \"interpolation\""
-                             : scene.inSpace() ? "false in space"
-                                               : "false beside accuracy.bound");
+                                 : "false beside accuracy.bound");
 }
 
 }  // namespace

@@ -70,6 +70,9 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
 /// the stiffest region at the side; 0 where its normal motion is prescribed [1/Pa]. \pre its mesh is there
 double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
                          const std::vector<const TriangleMesh*>& meshes);
+/// The same in space, on a half-space, whether or not the motion is prescribed.
+double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
+                         const TetrahedronMesh& mesh);
 
 /// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing

@@ -43,18 +43,52 @@ bool isWall(const SceneDescription& scene, const SideDescription& side,
   });
 }
 
-/// Of the triangles that have an edge on a label.
-std::set<int> regionsBeside(const TriangleMesh& mesh, int label) {
-  std::set<std::array<int, 2>> edges;
-  for (const auto& [a, b] : edgesOn(mesh, label)) edges.insert({std::min(a, b), std::max(a, b)});
-  std::set<int> regions;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k];
-      const int b = mesh.triangles[t][(k + 1) % 3];
-      if (edges.contains({std::min(a, b), std::max(a, b)})) regions.insert(mesh.regions[t]);
+/// Of the elements that have one of these sides.
+template <size_t N>
+std::set<int> regionsBeside(const std::vector<std::array<int, N + 1>>& elements,
+                            const std::vector<int>& regions, const std::vector<std::array<int, N>>& sides) {
+  std::set<std::array<int, N>> beside;
+  for (std::array<int, N> side : sides) {
+    std::sort(side.begin(), side.end());
+    beside.insert(side);
+  }
+  std::set<int> result;
+  for (size_t e = 0; e < elements.size(); ++e)
+    for (size_t without = 0; without <= N; ++without) {
+      std::array<int, N> side;
+      for (size_t k = 0; k < N; ++k) side[k] = elements[e][(without + k + 1) % (N + 1)];
+      std::sort(side.begin(), side.end());
+      if (beside.contains(side)) result.insert(regions[e]);
     }
-  return regions;
+  return result;
+}
+
+std::set<int> regionsBeside(const TriangleMesh& mesh, int label) {
+  return regionsBeside<2>(mesh.triangles, mesh.regions, edgesOn(mesh, label));
+}
+
+std::set<int> regionsBeside(const TetrahedronMesh& mesh, int label) {
+  return regionsBeside<3>(mesh.tetrahedra, mesh.regions, trianglesOn(mesh, label));
+}
+
+/// Of a body in a half-plane or half-space, by the stiffest of its regions at the side.
+template <class Mesh>
+double bodyCompliance(const SceneDescription& scene, const SideDescription& side, const Mesh& mesh) {
+  const BodyDescription& body = scene.bodies[bodyIndex(scene, side.body)];
+  const auto compliance = [&](const MaterialDescription& material) {
+    const bool thin = scene.plane == Plane::stress && !scene.inSpace();
+    const double poisson = thin ? 0 : material.elasticity.poisson;
+    return (1 - poisson * poisson) / material.elasticity.young;
+  };
+  if (body.regions.empty()) return compliance(body.material);
+  double least = std::numeric_limits<double>::infinity();
+  for (const int region : regionsBeside(mesh, side.label)) {
+    const auto own = std::find_if(
+        body.regions.begin(), body.regions.end(),
+        [&](const RegionDescription& each) { return each.label == region && each.material.has_value(); });
+    least = std::min(least, compliance(own == body.regions.end() ? body.material : *own->material));
+  }
+  return least;
 }
 
 double young(const SceneDescription& scene, const SideDescription& side) {
@@ -73,21 +107,12 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
 double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
                          const std::vector<const TriangleMesh*>& meshes) {
   if (isWall(scene, side, meshes)) return 0;
-  const size_t b = bodyIndex(scene, side.body);
-  const BodyDescription& body = scene.bodies[b];
-  const auto compliance = [&](const MaterialDescription& material) {
-    const double poisson = scene.plane == Plane::stress ? 0 : material.elasticity.poisson;
-    return (1 - poisson * poisson) / material.elasticity.young;
-  };
-  if (body.regions.empty()) return compliance(body.material);
-  double least = std::numeric_limits<double>::infinity();
-  for (const int region : regionsBeside(*meshes[b], side.label)) {
-    const auto own = std::find_if(
-        body.regions.begin(), body.regions.end(),
-        [&](const RegionDescription& each) { return each.label == region && each.material.has_value(); });
-    least = std::min(least, compliance(own == body.regions.end() ? body.material : *own->material));
-  }
-  return least;
+  return bodyCompliance(scene, side, *meshes[bodyIndex(scene, side.body)]);
+}
+
+double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
+                         const TetrahedronMesh& mesh) {
+  return bodyCompliance(scene, side, mesh);
 }
 
 namespace {

@@ -85,7 +85,7 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
         pair, meshOf(nonmortar), meshOf(mortar),
         {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
          [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
-         options.gapMoves}));
+         options.gapMoves, options.mortarCompliance, options.stabilised}));
     return;
   }
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };

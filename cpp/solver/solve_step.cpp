@@ -156,8 +156,10 @@ StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate) {
   iterate = startingIterate(step.state0);
   const double residual = system.linearise(step, iterate, step.data.weight, false).residual();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const Vector& gap = step.gap0()[k];
-    const double size = model.bodies[model.interfaces[k].pair().nonmortar.body].extent();
+    const ContactInterface& interface = model.interfaces[k];
+    Vector gap = step.gap0()[k];
+    if (interface.yields()) gap -= interface.yielded(iterate.contactForce[k]);
+    const double size = model.bodies[interface.pair().nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (gap[i] < -touching * size) iterate.active[k][i] = 0;
   }

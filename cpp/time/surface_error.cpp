@@ -1,4 +1,6 @@
-// The gap that contact leaves between two surfaces, as an error of the nonmortar tetrahedra.
+// The gap that contact leaves between two surfaces, as an error of the nonmortar tetrahedra; where the nodes
+// of the mortar side are farther apart than the rows of contact, of the mortar ones, which resolve it when
+// they are refined.
 #include <algorithm>
 
 #include "time/space_error.h"
@@ -66,14 +68,17 @@ void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
   for (Eigen::Index i = 0; i < jump.cols(); ++i) {
     double gap = points.normals[i].dot(jump.col(i)) - apart[i];
     if (!(pressure[i] > 0)) gap = std::max(gap, 0.0);
-    const int element = elementOf(0, i);
+    const std::array<int, 2> elements{elementOf(0, i), elementOf(1, i)};
     const Compliance compliance =
-        complianceOf(state, nonmortar.body, element) + complianceOf(state, mortar.body, elementOf(1, i));
-    double energy = compliance.elastic / (compliance.all * compliance.all) * gap * gap / points.sizes[i];
+        complianceOf(state, nonmortar.body, elements[0]) + complianceOf(state, mortar.body, elements[1]);
+    const double ofMortar = points.sizes[1][i] / model_.bodies[mortar.body].degree();
+    const size_t coarser = ofMortar > points.sizes[0][i] ? 1 : 0;
+    double energy = compliance.elastic / (compliance.all * compliance.all) * gap * gap /
+                    std::max(points.sizes[0][i], ofMortar);
     // Where the surfaces have parted the exact pressure is 0, and the product of the pressure and the gap is
     // all that there is: less on coarse triangles at the edge of contact.
     if (gap < 0) energy = std::min(energy, compliance.elastic / compliance.all * pressure[i] * -gap);
-    estimates[nonmortar.body].error[element] += points.areas[i] * energy;
+    estimates[sides[coarser].body].error[elements[coarser]] += points.areas[i] * energy;
   }
 }
 
