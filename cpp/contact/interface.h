@@ -200,8 +200,8 @@ class ContactInterface {
   /// By how much the lines may be off the curves behind them where these are not known and the distance is
   /// that as meshed: the largest sagitta [m].
   [[nodiscard]] double sagitta() const { return sagitta_; }
-  /// Of interpolation in space: by which part of the largest the nodal forces of a uniform pressure are off on
-  /// the mortar side; 0 where they are exact [-].
+  /// Of interpolation in space: by which part of the largest the nodal forces of a uniform pressure are off
+  /// on the mortar side; 0 where they are exact [-].
   [[nodiscard]] double patchError() const { return patchError_; }
   /// The sharpest turn of a line whose nodes lie on a circle, but too far apart to stand for it; 0 where
   /// neither does [rad].

@@ -248,6 +248,12 @@ void lintSurfaces(const SceneDescription& scene, const Model& model, Faults& fau
   const std::vector<SampledDatum> data = sampledData(meshedScene(scene, model));
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
+    constexpr double exact = 1e-9;
+    if (interface.patchError() > exact)
+      faults.add("interpolation-unmatched", scene.contacts[k].where,
+                 "nodal forces of a uniform pressure are off by up to " +
+                     digits(100 * interface.patchError(), 2) + " % on the mortar side, expected " +
+                     "variant = \"weighted\" or meshes that match");
     const double approach = approachOf(scene, data, interface);
     if (!(interface.sagitta() > visible * approach) || !(approach > 0)) continue;
     const std::string& length = scene.units.length;

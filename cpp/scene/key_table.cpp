@@ -172,7 +172,7 @@ variant | | `"mortar"`, with `degree = 2` `"weighted"` | `"interpolation"`, `"mo
   must not become negative, as a gap and as a force: the values of the gap at the nodes, its projection, or
   its means weighted with the hat functions of the nonmortar vertices, whose pressure is nowhere negative
   ([theory](theory.md#contact-one-set-of-rows)); each with `degree` 1 or 2
-stabilised | | true where `variant` is left out, in the plane, without `accuracy.bound` | true, false |
+stabilised | | true where `variant` is left out, without `accuracy.bound` | true, false |
   conditions yield where the mortar side is the coarser one, so that pressures do not alternate from node to
   node ([below](#contact-lines)); not with `"interpolation"`
 swap | | false | true, false | exchanges the sides, given or chosen: a short way to try the other one

@@ -172,7 +172,6 @@ steps = 10
                 ('accuracy={quantity="floor", tolerance=0.1}', 'quantity = "floor", expected'),
                 ("contact.friction=0.3", "friction, expected none"),
                 ("contact.sliding=finite", "sliding = \"finite\", expected none"),
-                ("contact.stabilised=true", "stabilised = true, expected false in space"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
                 ('body.upper.volume=averaged', 'expected pointwise'),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
