@@ -156,12 +156,13 @@ class Surface {
   }
 
   /// The turn over the length on the way from the middle of a side k across its triangle t, straight on, as
-  /// far as two or three elements of one size reach.
+  /// far as two or three elements of one size reach. Sharp edges reflect it: the surface goes on as its image.
   [[nodiscard]] double curvatureBehind(int t, int k) const {
     constexpr double heights = 2.5;
     constexpr int mostSteps = 16;
     const double length = heights * height(t, k);
     const SpacePoint& first = result_.facets[t];
+    const std::pair start(t, k);
     SpacePoint from = (place(result_.triangles[t][k]) + place(result_.triangles[t][(k + 1) % 3])) / 2;
     SpacePoint to = result_.facets[t].cross(sideOf(t, k)).normalized();
     double most = 0;
@@ -175,11 +176,16 @@ class Surface {
         const double far = outward.dot(place(result_.triangles[t][side]) - from) / speed;
         if (speed > 0 && far < leaves) std::tie(out, leaves) = std::pair(side, std::max(0.0, far));
       }
-      if (out < 0 || neighbours_[t][out] < 0) break;
       gone += leaves;
+      if (out < 0 || gone >= length || std::pair(t, out) == start) break;
       const int next = neighbours_[t][out];
-      if (gone >= length || angleBetween(result_.facets[t], result_.facets[next]) > sharpTurn) break;
       from += leaves * to;
+      if (next < 0 || angleBetween(result_.facets[t], result_.facets[next]) > sharpTurn) {
+        const SpacePoint outward = sideOf(t, out).cross(result_.facets[t]).normalized();
+        to -= 2 * to.dot(outward) * outward;
+        k = out;
+        continue;
+      }
       // The next triangle, unfolded into the plane of this one.
       const SpacePoint side = sideOf(t, out).normalized();
       const SpacePoint across = side.cross(result_.facets[t]);
@@ -252,6 +258,7 @@ class Surface {
     double radius = 0;
     for (const SpacePoint& x : points) radius = std::max(radius, x.norm());
     SurfaceNormal result{guess, true, 0};
+    double bend = 0;  // of z z: the section of the largest curvature is a circle
     for (int i = 0; i < repetitions; ++i) {
       const SpacePoint t1 = result.n.unitOrthogonal();
       const SpacePoint t2 = result.n.cross(t1);
@@ -261,11 +268,11 @@ class Surface {
         const SpacePoint scaled = points[row] / radius;
         const double x = scaled.dot(t1), y = scaled.dot(t2), z = scaled.dot(result.n);
         const double weight = 1 / scaled.squaredNorm();
-        own.row(row) << x, y, x * x + z * z / 2, M_SQRT2 * x * y, y * y + z * z / 2;
+        own.row(row) << x, y, x * x, M_SQRT2 * x * y, y * y;
         own.row(row) *= weight;
         others.row(row) << x * z, y * z, z * z;
         others.row(row) *= weight;
-        heights[row] = weight * z;
+        heights[row] = weight * (z - bend * z * z);
       }
       Eigen::JacobiSVD<Matrix> first(own, Eigen::ComputeThinU | Eigen::ComputeThinV);
       first.setThreshold(poor);
@@ -287,6 +294,9 @@ class Surface {
       const Vector lower = first.solve(rest);
       const Vector misfit = rest - own * lower;
       result.n = (result.n - lower[0] * t1 - lower[1] * t2).normalized();
+      const double mean = (lower[2] + lower[4]) / 2;
+      const double apart = std::hypot((lower[2] - lower[4]) / 2, lower[3] / M_SQRT2);
+      bend = mean < 0 ? mean - apart : mean + apart;
       if (i + 1 < repetitions) continue;
       // What the misfit makes of the slopes; where points tell less, the next order of an arc.
       Matrix all(count, rank + told);

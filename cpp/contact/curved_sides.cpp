@@ -24,7 +24,11 @@ ContactSurface::Side ContactSurface::sideOver(int triangle, int k) const {
   // Where one end has no normal the side is symmetric, as where a line ends in the plane.
   const double begins = first.known ? slope(first.n) : -slope(last.n);
   const double ends = last.known ? slope(last.n) : -begins;
-  return {(begins - ends) / 2 * up, (begins + ends) / 2 * up};
+  // The even part is that of a circle to fourth order.
+  const double even = (begins - ends) / 2;
+  const double angle = std::atan(even / d.norm());
+  const double second = even / (1 + angle * angle / 4);
+  return {second * up, (begins + ends) / 2 * up, (even - second) * up};
 }
 
 void ContactSurface::findSides() {
@@ -33,6 +37,15 @@ void ContactSurface::findSides() {
     std::array<Side, 3>& own = sides_.emplace_back();
     for (int k = 0; k < 3; ++k) own[k] = sideOver(static_cast<int>(t), k);
   }
+}
+
+double ContactSurface::distanceAlong(const SpacePoint& n, const SpacePoint& apart, int triangle,
+                                     const Eigen::Vector3d& l) const {
+  constexpr double grazing = 0.2;
+  const SpacePoint to = apart + offset(triangle, l);
+  const SpacePoint tangent = normalAt(triangle, l);
+  const double along = tangent.dot(n);
+  return std::abs(along) > grazing ? tangent.dot(to) / along : n.dot(to);
 }
 
 /// Errors of normals at both ends of a side of length h make one of h/8 times their sum in its middle; the

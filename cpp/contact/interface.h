@@ -240,8 +240,8 @@ class ContactInterface {
     std::array<Eigen::SparseMatrix<double>, 2> traces;  ///< points x nodes of both bodies
     Eigen::SparseMatrix<double> rows;                   ///< points x rows: the row functions
     std::vector<SpacePoint> normals;
-    Vector areas;      ///< of the cells [m^2]
-    Vector distances;  ///< of the bodies at t = 0 [m]
+    Vector areas;                 ///< of the cells [m^2]
+    Vector distances;             ///< of the bodies at t = 0 [m]
     std::array<Vector, 2> sizes;  ///< of the triangles of both sides: an edge [m]
 
     /// u1 - u2 at the points: 3 x points [m].

@@ -149,7 +149,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
     hits.push_back(hit);
-    distances.push_back(hit.triangle < 0 ? infinity : hit.delta + n.dot(mortar.offset(hit.triangle, hit.mu)));
+    distances.push_back(hit.triangle < 0 ? infinity
+                                         : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu));
     surfaceRows.push_back(
         {vertex.place, n, key.second, mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : spacing.at(hit)});
   }
@@ -201,8 +202,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
       const Eigen::Vector3d mu = each.at(l);
       // Of the curved surfaces, that of the triangles but for what these are off.
-      const double apart =
-          mu.dot(each.delta) + n.dot(mortar.offset(each.mortar, mu) - nonmortar.offset(each.nonmortar, b));
+      const double apart = mortar.distanceAlong(
+          n, mu.dot(each.delta) * n - nonmortar.offset(each.nonmortar, b), each.mortar, mu);
       at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), b, apart);
     };
     // Integrals of the corners' hat functions times those of the corners, the traces, the distance and one.

@@ -37,13 +37,17 @@ struct ContactSurface {
   [[nodiscard]] SpacePoint normalAt(int triangle, const Eigen::Vector3d& l) const;
   [[nodiscard]] double curvatureAt(int triangle, const Eigen::Vector3d& l) const;
   /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: the
-  /// cubic over each side that is perpendicular to the normals at its ends, continued into the triangle so
-  /// that quadratic heights are exact.
+  /// curve over each side that is perpendicular to the normals at its ends, a cubic, and of an arc to fourth
+  /// order, continued into the triangle so that quadratic heights are exact.
   [[nodiscard]] SpacePoint offset(int triangle, const Eigen::Vector3d& l) const {
     SpacePoint sum = SpacePoint::Zero();
     for (int k = 0; k < 3; ++k) sum += l[k] * l[(k + 1) % 3] * sides_[triangle][k].at(l[k] - l[(k + 1) % 3]);
     return sum;
   }
+  /// How far a point of the curved surface over l is along n from one that is `apart` from it: where its
+  /// tangent plane meets the line through that. \param apart  from there to the point of the triangle at l [m]
+  [[nodiscard]] double distanceAlong(const SpacePoint& n, const SpacePoint& apart, int triangle,
+                                     const Eigen::Vector3d& l) const;
   /// Expected error of that [m].
   [[nodiscard]] double offsetError(int triangle) const;
 
@@ -53,8 +57,10 @@ struct ContactSurface {
 
  private:
   struct Side {
-    SpacePoint even{0, 0, 0}, odd{0, 0, 0};  ///< [m]
-    [[nodiscard]] SpacePoint at(double difference) const { return even + difference * odd; }
+    SpacePoint even{0, 0, 0}, odd{0, 0, 0}, fourth{0, 0, 0};  ///< [m]
+    [[nodiscard]] SpacePoint at(double difference) const {
+      return even + difference * (odd + difference * fourth);
+    }
   };
   void findCurvatures();
   void findSides();
