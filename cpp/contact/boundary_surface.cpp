@@ -258,7 +258,7 @@ class Surface {
     double radius = 0;
     for (const SpacePoint& x : points) radius = std::max(radius, x.norm());
     SurfaceNormal result{guess, true, 0};
-    double bend = 0;  // of z z: the section of the largest curvature is a circle
+    double bend = 0;  // of z z, beside half of it: the section of the largest curvature is a circle
     for (int i = 0; i < repetitions; ++i) {
       const SpacePoint t1 = result.n.unitOrthogonal();
       const SpacePoint t2 = result.n.cross(t1);
@@ -268,7 +268,7 @@ class Surface {
         const SpacePoint scaled = points[row] / radius;
         const double x = scaled.dot(t1), y = scaled.dot(t2), z = scaled.dot(result.n);
         const double weight = 1 / scaled.squaredNorm();
-        own.row(row) << x, y, x * x, M_SQRT2 * x * y, y * y;
+        own.row(row) << x, y, x * x + z * z / 2, M_SQRT2 * x * y, y * y + z * z / 2;
         own.row(row) *= weight;
         others.row(row) << x * z, y * z, z * z;
         others.row(row) *= weight;
@@ -296,7 +296,7 @@ class Surface {
       result.n = (result.n - lower[0] * t1 - lower[1] * t2).normalized();
       const double mean = (lower[2] + lower[4]) / 2;
       const double apart = std::hypot((lower[2] - lower[4]) / 2, lower[3] / M_SQRT2);
-      bend = mean < 0 ? mean - apart : mean + apart;
+      bend = std::clamp(mean, -apart, apart);
       if (i + 1 < repetitions) continue;
       // What the misfit makes of the slopes; where points tell less, the next order of an arc.
       Matrix all(count, rank + told);

@@ -79,15 +79,17 @@ class Pair:
     def draw(self, folder):
         for name, (build, size, label) in self.parts.items():
             draw(folder, name, build, size, label)
-            done = subprocess.run([PROGRAM, "mesh", "convert", f"{name}.geo", f"{name}.mesh"], cwd=folder,
-                                  capture_output=True, text=True)
-            if done.returncode:
-                raise RuntimeError(done.stderr)
+            for body in ("one", "two") if name == "both" else (name,):
+                done = subprocess.run([PROGRAM, "mesh", "convert", f"{name}.geo", f"{body}.mesh", "--region",
+                                       body if name == "both" else "one"], cwd=folder, capture_output=True, text=True)
+                if done.returncode:
+                    raise RuntimeError(done.stderr)
 
     def scene(self, kind, degree):
         lines = ["dimension = 3", f"degree = {degree}"]
         for name, supports in zip(("one", "two"), self.supports):
-            file = f'file = "{name}.{kind}"' if name in self.parts else f'file = "both.{kind}", region = "{name}"'
+            alone = name in self.parts or kind == "mesh"
+            file = f'file = "{name}.{kind}"' if alone else f'file = "both.{kind}", region = "{name}"'
             lines += ["[[body]]", f'name = "{name}"', f"mesh = {{ {file} }}",
                       "material = { young = 1, poisson = 0.3 }", f"boundary = [ {supports} ]"]
         lines += ["[contact]", 'nonmortar = { body = "one", label = "arc" }',
