@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "contact/interface_entries.h"
+#include "contact/point_entries.h"
 #include "contact/surface.h"
 
 namespace mortier {
@@ -155,11 +156,11 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   const Eigen::Index columns1 = 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count());
   const Eigen::Index columns2 = 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count());
   const bool projects = pair.coupling == CouplingKind::mortar;
-  Triplets mass, D, M, trace1, trace2, functions;
+  Triplets mass, D, M;
+  PointEntries points, nearestPoints;
   Vector distance = Vector::Zero(rows);
   Vector least = Vector::Constant(rows, infinity);
   result.lengths_ = Vector::Zero(rows);
-  std::vector<double> areas, gaps, sizes;
   std::vector<DistanceError> errors;
   const auto add = [](Triplets& entries, Eigen::Index row, int node, double value, const SpacePoint& n) {
     for (int c = 0; c < 3; ++c)
@@ -186,14 +187,26 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         parts(std::lower_bound(own.begin(), own.end(), row) - own.begin(), k) += part;
     const auto& nodes1 = nonmortar.triangles[each.nonmortar];
     const auto& nodes2 = mortar.triangles[each.mortar];
+    // Of the curved surfaces, that of the triangles but for what these are off.
+    const auto distanceAt = [&](const Point& l) {
+      const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
+      const Eigen::Vector3d mu = each.at(l);
+      return mu.dot(each.delta) + n.dot(mortar.offset(each.mortar, mu) - nonmortar.offset(each.nonmortar, b));
+    };
     // Calls at(values of the traces, barycentric coordinates, distance) at a point of the refinement.
     const auto atPoint = [&](const Point& l, auto&& at) {
       const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
-      const Eigen::Vector3d mu = each.at(l);
-      // Of the curved surfaces, that of the triangles but for what these are off.
-      const double apart =
-          mu.dot(each.delta) + n.dot(mortar.offset(each.mortar, mu) - nonmortar.offset(each.nonmortar, b));
-      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), b, apart);
+      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, each.at(l)), b, distanceAt(l));
+    };
+    const auto addTo = [&](PointEntries& to) {
+      return [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
+        for (int k = 0; k < nonmortar.perTriangle(); ++k) to.add(to.trace1, nodes1[k], phi[k]);
+        for (int k = 0; k < mortar.perTriangle(); ++k) to.add(to.trace2, nodes2[k], psi[k]);
+        for (Eigen::Index i = 0; i < count; ++i) to.add(to.functions, own[i], parts.row(i).dot(chi));
+        to.distances.push_back(delta);
+        to.sizes.push_back(std::sqrt(twiceArea));
+        to.normals.push_back(n);
+      };
     };
     // Integrals of the corners' hat functions times those of the corners, the traces, the distance and one.
     Eigen::Matrix3d hats = Eigen::Matrix3d::Zero();
@@ -219,17 +232,12 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
                   covered += w;
                   nearest = std::min(nearest, delta);
                 });
-      const auto point = static_cast<int>(areas.size());
-      atPoint(p0 + (e1 + e2) / 3, [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
-        for (int k = 0; k < nonmortar.perTriangle(); ++k) trace1.emplace_back(point, nodes1[k], phi[k]);
-        for (int k = 0; k < mortar.perTriangle(); ++k) trace2.emplace_back(point, nodes2[k], psi[k]);
-        for (Eigen::Index i = 0; i < count; ++i) functions.emplace_back(point, own[i], parts.row(i).dot(chi));
-        gaps.push_back(delta);
-      });
-      areas.push_back(area);
-      sizes.push_back(std::sqrt(twiceArea));
-      result.points_.normals.push_back(n);
+      atPoint(p0 + (e1 + e2) / 3, addTo(points));
+      points.areas.push_back(area);
     }
+    if (!options.gap && options.initial != InitialGap::close)
+      atPoint(lowestIn(each.polygon, nonmortar.planar && mortar.planar ? 0 : 9, distanceAt),
+              addTo(nearestPoints));
     errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
     for (Eigen::Index i = 0; i < count; ++i) {
       const int row = own[i];
@@ -249,13 +257,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         add(M, row, nodes2[k], -parts.row(i).dot(traces2.col(k)), n);
     }
   }
-  const auto faced = static_cast<Eigen::Index>(areas.size());
-  result.points_.traces = {assembled(faced, nonmortarMesh.nodes.count(), trace1),
-                           assembled(faced, mortarMesh.nodes.count(), trace2)};
-  result.points_.rows = assembled(faced, rows, functions);
-  result.points_.areas = Eigen::Map<const Vector>(areas.data(), faced);
-  result.points_.distances = Eigen::Map<const Vector>(gaps.data(), faced);
-  result.points_.sizes = Eigen::Map<const Vector>(sizes.data(), faced);
+  const std::array<int, 2> nodes{nonmortarMesh.nodes.count(), mortarMesh.nodes.count()};
+  result.points_ = points.assembled(nodes, rows);
+  result.nearest_ = nearestPoints.assembled(nodes, rows);
   result.overlap_ = result.points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
   if (pair.coupling == CouplingKind::weighted) {

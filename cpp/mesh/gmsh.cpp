@@ -60,9 +60,9 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
 template <class Archive>
 void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
   auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-         sharedLabels, sharedRegions, changed, boundaryNormals] = mesh;
+         sharedLabels, sharedRegions, changed, boundaryNormals, geometry] = mesh;
   archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-          sharedLabels, sharedRegions, changed, boundaryNormals);
+          sharedLabels, sharedRegions, changed, boundaryNormals, geometry.triangles, geometry.numbers);
 }
 
 template <class Archive>
@@ -283,6 +283,35 @@ TriangleMesh planeMesh(const Gmsh& gmsh, const MeshSource& source) {
   return mesh;
 }
 
+/// The triangles on all surfaces that have a shape, in groups or not.
+template <class Numbers>
+void addGeometry(const Gmsh& gmsh, Numbers& vertex, BoundaryGeometry& geometry) {
+  Gmsh::Array<int> pairs;
+  gmsh.call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", &pairs.data, &pairs.size, 2);
+  const std::vector<int> all = gmsh.take(pairs);
+  for (size_t i = 1; i < all.size(); i += 2) {
+    if (shapeOf(gmsh, 2, all[i]).empty()) continue;
+    forCornersOn(gmsh, 2, all[i], [&](const CellType& type, const std::vector<size_t>& corners) {
+      for (size_t k = 0; type.corners == 3 && k < corners.size(); k += 3)
+        geometry.triangles.push_back({vertex(corners[k]), vertex(corners[k + 1]), vertex(corners[k + 2])});
+      geometry.numbers.resize(geometry.triangles.size(), all[i]);
+    });
+  }
+}
+
+/// Leaves out triangles with further vertices.
+void keepVertices(BoundaryGeometry& geometry, int count) {
+  size_t kept = 0;
+  for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const auto& triangle = geometry.triangles[i];
+    if (*std::max_element(triangle.begin(), triangle.end()) >= count) continue;
+    geometry.triangles[kept] = triangle;
+    geometry.numbers[kept++] = geometry.numbers[i];
+  }
+  geometry.triangles.resize(kept);
+  geometry.numbers.resize(kept);
+}
+
 TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   open(gmsh, source, 3);
   const std::map<size_t, SpacePoint> nodes = nodesOf(gmsh);
@@ -295,10 +324,12 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   TetrahedronMesh sides;
   std::vector<int> surfaces;
   addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames, &surfaces);
+  addGeometry(gmsh, vertex, mesh.geometry);
   std::map<int, std::map<int, SpacePoint> > normals;  // by surfaces and vertices
   for (const int surface : std::set<int>(surfaces.begin(), surfaces.end()))
     for (const auto& [node, normal] : normalsOn(gmsh, surface)) normals[surface][vertex(node)] = normal;
   mesh.vertices.resize(static_cast<size_t>(used));  // surfaces of no volume have others
+  keepVertices(mesh.geometry, used);
   for (size_t i = 0; i < sides.boundaryTriangles.size(); ++i) {
     const std::array<int, 3>& side = sides.boundaryTriangles[i];
     if (*std::max_element(side.begin(), side.end()) >= used) continue;
@@ -344,7 +375,9 @@ TriangleMesh readGmsh(const MeshSource& source, double seconds) {
 }
 
 TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds) {
-  return readInChild(source, seconds, spaceMesh);
+  TetrahedronMesh mesh = readInChild(source, seconds, spaceMesh);
+  if (!mesh.geometry.triangles.empty()) mesh.geometry.surfaces = gmshSurfaces(source);
+  return mesh;
 }
 
 #endif

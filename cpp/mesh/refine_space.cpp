@@ -86,7 +86,9 @@ class SpaceBisection {
         curved_(curves.triangles, mesh.vertices.size()) {
     result_.mesh = mesh;
     result_.curves.normals = curves.normals;
+    result_.curves.geometry = curves.geometry;
     oldParts_ = curves.parts;
+    onSurface_ = 1e-11 * extent(mesh);
     for (size_t t = 0; t < tetrahedra_.count(); ++t) longest_.push_back(longestOf(static_cast<int>(t)));
     isCut_.assign(tetrahedra_.count(), 0);
   }
@@ -169,13 +171,53 @@ class SpaceBisection {
         if (normal(v, part).allFinite()) sum += normal(v, part);
       result_.curves.normals[{m, part}] = perpendicular(sum, d.normalized());
     }
-    if (sagitta.isZero(0)) return;
     const SpacePoint middle = place(m);
+    if (*parts.begin() < 0) {
+      putOntoSurfaces(m, edge, surface, middle + sagitta, around);
+      return;
+    }
+    if (sagitta.isZero(0)) return;
     for (const double share : {1.0, 0.5, 0.25, 0.0}) {
       result_.mesh.vertices[m] = middle + share * sagitta;
       if (share == 0 || !spoils(m, edge, around)) break;
-      if (share == 1) ++result_.offCurve;
+      if (share == 1) result_.offCurve.push_back(m);
     }
+  }
+
+  /// Onto those of the geometry. \param near  where the vertex is, nearly
+  void putOntoSurfaces(int m, const Edge& edge, const std::vector<int>& triangles, const SpacePoint& near,
+                       const std::vector<int>& around) {
+    const GeometrySurfaces& geometry = *result_.curves.geometry;
+    std::vector<int> surfaces;
+    std::vector<SpacePoint> facets;
+    for (const int i : triangles) {
+      const int part = oldParts_[curved_.parent(i)];
+      if (part >= 0) continue;
+      const auto& [a, b, c] = curved_[i];
+      const int surface = surfaceOfPart(part);
+      if (std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end()) continue;
+      surfaces.push_back(surface);
+      facets.push_back((place(b) - place(a)).cross(place(c) - place(a)));
+    }
+    if (std::all_of(surfaces.begin(), surfaces.end(), [&](int each) { return geometry.isPlane(each); })) {
+      for (const int surface : surfaces)
+        result_.curves.normals[{m, partOfSurface(surface)}] = normal(edge[0], partOfSurface(surface));
+      return;
+    }
+    const SpacePoint middle = place(m);
+    const double half = (place(edge[1]) - place(edge[0])).norm() / 2;
+    const std::optional<SharedPoint> found = sharedPoint(geometry, surfaces, near);
+    if (!found || !((found->at - middle).norm() < half)) {
+      result_.offCurve.push_back(m);
+      return;
+    }
+    for (size_t k = 0; k < surfaces.size(); ++k)
+      result_.curves.normals[{m, partOfSurface(surfaces[k])}] =
+          found->normals[k].dot(facets[k]) < 0 ? SpacePoint(-found->normals[k]) : found->normals[k];
+    result_.mesh.vertices[m] = found->at;
+    const bool spoilt = spoils(m, edge, around);
+    if (spoilt) result_.mesh.vertices[m] = middle;
+    if (spoilt || found->off > onSurface_) result_.offCurve.push_back(m);
   }
 
   [[nodiscard]] bool spoils(int m, const Edge& edge, const std::vector<int>& around) const {
@@ -240,18 +282,27 @@ class SpaceBisection {
       result_.curves.parts.push_back(oldParts_[curved_.parent(static_cast<int>(i))]);
   }
 
-  /// Those of the geometry at old vertices.
+  /// Those of the geometry at new vertices where it knows their surfaces, at others those before.
   void keepNormals() {
     std::vector<std::array<SpacePoint, 3>>& normals = result_.mesh.boundaryNormals;
     normals.clear();
+    std::map<std::array<int, 3>, int> partOf;
+    for (size_t i = 0; i < curved_.count(); ++i)
+      if (const int part = oldParts_[curved_.parent(static_cast<int>(i))]; part < 0)
+        partOf[sortedTriangle(curved_.all()[i])] = part;
     for (size_t i = 0; i < labelled_.count() && !old_.boundaryNormals.empty(); ++i) {
+      const auto known = partOf.find(sortedTriangle(labelled_.all()[i]));
       const auto parent = static_cast<size_t>(labelled_.parent(static_cast<int>(i)));
       const auto& before = old_.boundaryTriangles[parent];
       std::array<SpacePoint, 3>& own = normals.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
         const auto at = std::find(before.begin(), before.end(), labelled_.all()[i][k]);
-        own[k] = at == before.end() ? SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN())
-                                    : old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
+        if (known != partOf.end())
+          own[k] = normal(labelled_.all()[i][k], known->second);
+        else if (at != before.end())
+          own[k] = old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
+        else
+          own[k].setConstant(std::numeric_limits<double>::quiet_NaN());
       }
     }
   }
@@ -262,6 +313,7 @@ class SpaceBisection {
   std::vector<int> oldParts_;
   std::vector<Edge> longest_;  ///< of tetrahedra, smaller vertex first
   std::vector<char> isCut_;    ///< tetrahedra of the mesh before, and all new ones
+  double onSurface_ = 0;       ///< distance of vertices that are on their surfaces [m]
   RefinedTetrahedra result_;
 };
 
