@@ -48,34 +48,29 @@ def roller_geo(angles):
 
 def barrel_geo(angles, crown):
     """A roller with crowned sides: turned about the y axis through its centre."""
-    return (OPENCASCADE + f"R = 1; L = 0.5; C = {crown!r};\n"
-            "Torus(1) = {0, 0, R, 1e-9 + C, C};\n" if False else
-            OPENCASCADE + f"R = 1; L = 0.5; C = {crown!r};\ns = C - Sqrt(C^2 - L^2);\n"
+    return (OPENCASCADE + f"R = 1; L = 0.5; C = {crown!r};\ns = C - Sqrt(C^2 - L^2);\n"
             "Point(1) = {0, -L, R}; Point(2) = {0, L, R}; Point(3) = {0, L, s}; Point(4) = {0, -L, s};\n"
-            "Point(5) = {0, 0, C};\nLine(1) = {1, 2}; Line(2) = {2, 3}; Circle(3) = {3, 5, 4}; Line(4) = {4, 1};\n"
+            "Point(5) = {0, 0, C};\nLine(1) = {1, 2}; Line(2) = {2, 3}; Circle(3) = {3, 5, 4}; "
+            "Line(4) = {4, 1};\n"
             "Curve Loop(1) = {1:4}; Plane Surface(1) = {1};\n"
             "v[] = Extrude {{0, 1, 0}, {0, 0, R}, 2*Pi} { Surface{1}; };\n"
             + turned("0, 1, 0", angles[0]) + HALF.format("R") + GROUPS.format("R"))
 
 
 def torus_geo():
-    return (OPENCASCADE + "R = 1; L = 8;\nTorus(1) = {0, 0, R, 2*R, R};\n" + HALF.format("R") + GROUPS.format("R"))
-
-
-def block_geo(shape):
-    """Below the plane z = 0, with a body taken from or added to its top: label 1 the round surface, 2 the
-    bottom."""
-    return (OPENCASCADE + "R = 1;\nBox(2) = {-1.5, -1.5, -1.5, 3, 3, 1.5};\n" + shape
-            + "e = 1e-4; bottom() = Surface In BoundingBox{-9, -9, -1.5 - e, 9, 9, -1.5 + e};\n"
-            "flat() = Surface In BoundingBox{-1.5 - e, -1.5 - e, -1.5 - e, 1.5 + e, 1.5 + e, e};\n")
+    return (OPENCASCADE + "R = 1; L = 8;\nTorus(1) = {0, 0, R, 2*R, R};\n" + HALF.format("R")
+            + GROUPS.format("R"))
 
 
 def cup_geo(radius, opening):
-    return (OPENCASCADE + f"Box(2) = {{-1.5, -1.5, -1, 3, 3, {1 + opening!r}}};\nSphere(1) = {{0, 0, {radius!r}, {radius!r}}};\n"
+    return (OPENCASCADE
+            + f"Box(2) = {{-1.5, -1.5, -1, 3, 3, {1 + opening!r}}};\n"
+            f"Sphere(1) = {{0, 0, {radius!r}, {radius!r}}};\n"
             "BooleanDifference{ Volume{2}; Delete; }{ Volume{1}; Delete; }\n"
             "e = 1e-4; bottom() = Surface In BoundingBox{-9, -9, -1 - e, 9, 9, -1 + e};\n"
             f"cup() = Surface In BoundingBox{{-1.4, -1.4, -e, 1.4, 1.4, {opening!r} + e}};\n"
-            f"flat() = Surface In BoundingBox{{-9, -9, {opening!r} - e, 9, 9, {opening!r} + e}}; cup() -= flat();\n"
+            f"flat() = Surface In BoundingBox{{-9, -9, {opening!r} - e, 9, 9, {opening!r} + e}}; "
+            "cup() -= flat();\n"
             "Physical Volume(1) = Volume{:}; Physical Surface(1) = cup(); Physical Surface(2) = bottom();\n")
 
 
@@ -143,10 +138,11 @@ class Scene:
                      f'cells = [{self.cells + 1}, 2] }}')
             lower = (f'{{ shape = "cuboid", lower = [1, -1.5, 0], upper = [2.5, 1.5, 1], '
                      f'cells = [{self.cells}, {2 * self.cells}, 2] }}')
-            return self.scene(body("u", upper, f'{{ label = "left", ux = "{self.approach!r}*t", uy = 0, uz = 0 }}',
-                                   self.young[0]),
-                              body("l", lower, '{ label = "right", ux = 0, uy = 0, uz = 0 }', self.young[1]),
-                              '{ body = "u", label = "round" }', '{ body = "l", label = "left" }', "left", "x")
+            first = body("u", upper, f'{{ label = "left", ux = "{self.approach!r}*t", uy = 0, uz = 0 }}',
+                         self.young[0])
+            second = body("l", lower, '{ label = "right", ux = 0, uy = 0, uz = 0 }', self.young[1])
+            return self.scene(first, second, '{ body = "u", label = "round" }',
+                              '{ body = "l", label = "left" }', "left", "x")
         elif self.kind == "turned ball":
             upper = self.geo("u.geo", ball_geo(self.angles))
         elif self.kind == "turned roller":
@@ -175,12 +171,16 @@ class Scene:
         more = ""
         if self.kind == "second contact":
             # A weight on the block, which presses from the beginning.
-            more = (body("w", '{ shape = "cuboid", lower = [-1.5, 1, 0], upper = [1.5, 1.5, 0.5], cells = [6, 2, 2] }',
-                         '{ label = "left", ux = 0, uy = 0 }, { label = "top", uz = "-0.01*t" }', 1000.0)
-                    + '[[contact]]\nsides = [ { body = "w", label = "bottom" }, { body = "l", label = "top" } ]\n')
-        return self.scene(body("u", upper, f'{{ label = {up[1]}, ux = 0, uy = 0, uz = "{depth}" }}', self.young[0]),
-                          body("l", lower, f"{{ label = {low[1]}, ux = 0, uy = 0, uz = 0 }}", self.young[1], more),
-                          f'{{ body = "u", label = {up[0]} }}', f'{{ body = "l", label = {low[0]} }}', up[1], "z")
+            weight = ('{ shape = "cuboid", lower = [-1.5, 1, 0], upper = [1.5, 1.5, 0.5], '
+                      'cells = [6, 2, 2] }')
+            more = (body("w", weight, '{ label = "left", ux = 0, uy = 0 }, '
+                         '{ label = "top", uz = "-0.01*t" }', 1000.0)
+                    + '[[contact]]\nsides = [ { body = "w", label = "bottom" }, '
+                      '{ body = "l", label = "top" } ]\n')
+        first = body("u", upper, f'{{ label = {up[1]}, ux = 0, uy = 0, uz = "{depth}" }}', self.young[0])
+        second = body("l", lower, f"{{ label = {low[1]}, ux = 0, uy = 0, uz = 0 }}", self.young[1], more)
+        return self.scene(first, second, f'{{ body = "u", label = {up[0]} }}',
+                          f'{{ body = "l", label = {low[0]} }}', up[1], "z")
 
     def scene(self, upper, lower, one, other, held, axis):
         label = held if str(held).startswith('"') or isinstance(held, int) else f'"{held}"'
