@@ -6,68 +6,12 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/cut_simplices.h"
+
 namespace mortier {
 namespace {
 
 using Edge = std::array<int, 2>;
-
-/// Simplices of n vertices that are cut in place, and where they are.
-template <size_t n>
-class CutSimplices {
- public:
-  using Simplex = std::array<int, n>;
-
-  CutSimplices(const std::vector<Simplex>& simplices, size_t vertices) : all_(simplices), at_(vertices) {
-    for (size_t i = 0; i < all_.size(); ++i)
-      for (const int v : all_[i]) at_[v].push_back(static_cast<int>(i));
-    parents_.resize(all_.size());
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-
-  [[nodiscard]] size_t count() const { return all_.size(); }
-  [[nodiscard]] const std::vector<Simplex>& all() const { return all_; }
-  [[nodiscard]] const Simplex& operator[](int i) const { return all_[i]; }
-  [[nodiscard]] int parent(int i) const { return parents_[i]; }
-
-  /// Those with an edge, ascending.
-  [[nodiscard]] std::vector<int> around(const Edge& edge) const {
-    std::vector<int> found;
-    if (std::max(edge[0], edge[1]) >= static_cast<int>(at_.size())) return found;
-    const bool first = at_[edge[0]].size() < at_[edge[1]].size();
-    for (const int i : at_[edge[first ? 0 : 1]])
-      if (std::find(all_[i].begin(), all_[i].end(), edge[first ? 1 : 0]) != all_[i].end()) found.push_back(i);
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  /// Cuts one at vertex m of its edge: the half at its first end stays, the other one is put last.
-  void cut(int i, const Edge& edge, int m) {
-    at_.resize(std::max(at_.size(), static_cast<size_t>(m) + 1));
-    const auto last = static_cast<int>(all_.size());
-    Simplex second = all_[i];
-    std::replace(all_[i].begin(), all_[i].end(), edge[1], m);
-    std::replace(second.begin(), second.end(), edge[0], m);
-    std::vector<int>& left = at_[edge[1]];
-    left.erase(std::find(left.begin(), left.end(), i));
-    at_[m].push_back(i);
-    for (const int v : second) at_[v].push_back(last);
-    all_.push_back(second);
-    parents_.push_back(parents_[i]);
-  }
-
-  /// The same in the order of their parents.
-  [[nodiscard]] std::vector<int> byParents() const {
-    std::vector<int> order(all_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return parents_[i] < parents_[j]; });
-    return order;
-  }
-
- private:
-  std::vector<Simplex> all_;
-  std::vector<int> parents_;
-  std::vector<std::vector<int>> at_;  ///< by vertices
-};
 
 /// Surfaces that meet at a larger angle than this sine have an edge there.
 constexpr double sharpSine = 0.34;
@@ -215,9 +159,41 @@ class SpaceBisection {
       result_.curves.normals[{m, partOfSurface(surfaces[k])}] =
           found->normals[k].dot(facets[k]) < 0 ? SpacePoint(-found->normals[k]) : found->normals[k];
     result_.mesh.vertices[m] = found->at;
-    const bool spoilt = spoils(m, edge, around);
+    const bool spoilt =
+        spoils(m, edge, around) && !(makeRoom(edge, around, found->at - middle) && !spoils(m, edge, around));
     if (spoilt) result_.mesh.vertices[m] = middle;
     if (spoilt || found->off > onSurface_) result_.offCurve.push_back(m);
+  }
+
+  /// Moves vertices inside the body that tetrahedra around an edge have by a part of what its middle moves.
+  /// \returns whether one has moved
+  bool makeRoom(const Edge& edge, const std::vector<int>& around, const SpacePoint& shift) {
+    constexpr double least = 0.5;  // of the volume of the tetrahedra there
+    std::set<int> inside;
+    for (const int t : around)
+      for (const int v : tetrahedra_[t])
+        if (v != edge[0] && v != edge[1] && !curved_.has(v)) inside.insert(v);
+    bool any = false;
+    for (const int v : inside) {
+      const std::vector<int>& own = tetrahedra_.at(v);
+      const SpacePoint before = place(v);
+      std::vector<double> volumes;
+      for (const int t : own) volumes.push_back(volume(result_.mesh, tetrahedra_[t]));
+      const auto regionOf = [&](int t) { return old_.regions[tetrahedra_.parent(t)]; };
+      if (std::any_of(own.begin(), own.end(), [&](int t) { return regionOf(t) != regionOf(own.front()); }))
+        continue;
+      for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+        result_.mesh.vertices[v] = before + share * shift;
+        bool fits = true;
+        for (size_t i = 0; i < own.size() && fits; ++i)
+          fits = volume(result_.mesh, tetrahedra_[own[i]]) > least * volumes[i];
+        if (!fits && share > 0) continue;
+        any = any || share > 0;
+        break;
+      }
+      for (const int t : own) longest_[t] = longestOf(t);
+    }
+    return any;
   }
 
   [[nodiscard]] bool spoils(int m, const Edge& edge, const std::vector<int>& around) const {

@@ -109,7 +109,7 @@ class Scene:
         self.angles = [rng.uniform(0, 2 * math.pi) for _ in range(2)]
         self.size = rng.uniform(0.35, 0.7)
         self.other = rng.uniform(0.5, 2)
-        self.aim = rng.choice([0.1, 0.15, 0.2])
+        self.aim = rng.choice([0.2, 0.25, 0.3])
         self.curved = 1.0  # radius of the contact
         self.line = 0.0  # length of contact along a line, or around
         self.files = {}
@@ -196,14 +196,15 @@ class Scene:
             return self.line * math.pi / 4 * modulus * self.approach / 3
         return 4 / 3 * modulus * math.sqrt(self.curved) * self.approach ** 1.5
 
-    def faults(self, program):
-        run = solve(program, self.text(), "--accuracy", str(self.aim), "--max-unknowns", "40000",
+    def faults(self, program, unknowns=30000):
+        run = solve(program, self.text(), "--accuracy", str(self.aim), "--max-unknowns", str(unknowns),
                     files=self.files, patience=400)
         if run.code not in (0, 1) or not run.summary:
             return [run.end]
         reached = run.summary["accuracy"].get("reached")
         force = abs(run.value("F"))
-        self.found = f"{'reached' if reached else 'not reached'}, force {force / self.hertz():.3g} of Hertz's"
+        self.ratio = force / self.hertz()
+        self.found = f"{'reached' if reached else 'not reached'}, force {self.ratio:.3g} of Hertz's"
         if not reached:
             return []
         if not force > LEAST * self.hertz():
