@@ -205,6 +205,8 @@ class Scene:
         force = abs(run.value("F"))
         self.ratio = force / self.hertz()
         self.found = f"{'reached' if reached else 'not reached'}, force {self.ratio:.3g} of Hertz's"
+        if any(float(row["time[s]"]) == 0 and float(row["contact_force[N]"]) > 0 for row in run.history):
+            return ["presses at t = 0, where nothing loads"]
         if not reached:
             return []
         if not force > LEAST * self.hertz():
