@@ -109,8 +109,8 @@ KnownCurves curvesBehind(const TriangleMesh& mesh);
 /// where two regions meet, keep their triangles.
 CurvedFaces curvesBehind(const TetrahedronMesh& mesh);
 
-/// Puts vertices of a mesh onto all surfaces of its geometry that meet there: CAD files have the curves between
-/// them to a ten-millionth of the size.
+/// Puts vertices of a mesh onto all surfaces of its geometry that meet there: CAD files have the curves
+/// between them to a ten-millionth of the size.
 void putOntoGeometry(TetrahedronMesh& mesh);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the

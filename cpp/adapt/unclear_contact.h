@@ -1,5 +1,5 @@
-// Contact that meshes are too coarse to decide: between two surfaces in space of which no row presses, although
-// they are nearer to each other than what is known of their distance.
+// Contact that meshes are too coarse to decide: between two surfaces in space of which no row presses,
+// although they are nearer to each other than what is known of their distance.
 #pragma once
 
 #include <optional>

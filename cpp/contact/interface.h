@@ -243,8 +243,8 @@ class ContactInterface {
     [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar) const;
   };
   [[nodiscard]] const SurfacePoints& surfacePoints() const { return points_; }
-  /// Where the surfaces as meshed are nearest to each other: a point for each pair of triangles that face each
-  /// other, without areas. None where the distance is given.
+  /// Where the surfaces as meshed are nearest to each other: a point for each pair of triangles that face
+  /// each other, without areas. None where the distance is given.
   [[nodiscard]] const SurfacePoints& nearestPoints() const { return nearest_; }
   /// Of the bodies at these points [m].
   [[nodiscard]] Vector pointDistances(double t) const;

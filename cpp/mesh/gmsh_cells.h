@@ -1,8 +1,6 @@
 // Cells of the entities of Gmsh.
 #pragma once
 
-#include <gmshc.h>
-
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -14,22 +12,8 @@
 namespace mortier {
 
 /// Node tags of the elements of one type on an entity.
-inline std::vector<size_t> elements(const Gmsh& gmsh, int type, int entity) {
-  Gmsh::Array<size_t> tags;
-  Gmsh::Array<size_t> nodes;
-  gmsh.call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", type, &tags.data,
-                                                      &tags.size, &nodes.data, &nodes.size, entity, size_t{0},
-                                                      size_t{1});
-  gmsh.take(tags);
-  return gmsh.take(nodes);
-}
-
-inline std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
-  Gmsh::Array<int> types;
-  gmsh.call<decltype(gmshModelMeshGetElementTypes)>("gmshModelMeshGetElementTypes", &types.data, &types.size,
-                                                    dimension, -1);
-  return gmsh.take(types);
-}
+std::vector<size_t> elements(const Gmsh& gmsh, int type, int entity);
+std::vector<int> elementTypes(const Gmsh& gmsh, int dimension);
 
 /// Cells of Gmsh up to degree 2; their corners are the first of their nodes.
 struct CellType {

@@ -91,9 +91,10 @@ using RefinedTetrahedra = BisectedMesh<TetrahedronMesh, CurvedFaces>;
 /// Cuts the tetrahedra that are marked, and as many more as it takes. A new vertex of the boundary is put
 /// onto the arc over its edge that is perpendicular to the normals at both ends, or, where two parts meet in
 /// an edge, to those of both, and from there onto the surfaces of the geometry where these are known. Where a
-/// half would have less than a quarter of its volume the vertex stays on the chord; that of an arc goes as far
-/// back as it must. Where there is no normal at one end the arc is symmetric. Regions, labels, names and what
-/// is known of boundaryNormals go on.
+/// half would have less than a quarter of its volume, vertices inside the body give way; where that is not
+/// enough the vertex stays on the chord. One on an arc that is not of a geometry goes as far back as it must.
+/// Where there is no normal at one end the arc is symmetric. Regions, labels, names and what is known of
+/// boundaryNormals go on.
 /// \param marked  by tetrahedron
 RefinedTetrahedra bisect(const TetrahedronMesh& mesh, const CurvedFaces& curves,
                          const std::vector<char>& marked);
