@@ -123,10 +123,24 @@ std::vector<int> AdaptedMeshes::cut(Body& body, const std::vector<char>& marked,
   auto refined = bisect(body.mesh, body.curves, marked);
   body.mesh = std::move(refined.mesh);
   body.curves = std::move(refined.curves);
-  offCurve_ += refined.offCurve;
+  body.offCurve.insert(body.offCurve.end(), refined.offCurve.begin(), refined.offCurve.end());
   if (byVertex != nullptr)
     for (const auto& [a, b] : refined.cutEdges) byVertex->push_back(((*byVertex)[a] + (*byVertex)[b]) / 2);
   return std::move(refined.parents);
+}
+
+std::vector<SpacePoint> AdaptedMeshes::offCurve(size_t body) const {
+  std::vector<SpacePoint> places;
+  std::visit(
+      [&](const auto& of) {
+        for (const int v : of.offCurve) {
+          places.emplace_back(SpacePoint::Zero());
+          places.back().head<std::decay_t<decltype(of.mesh.vertices[v])>::RowsAtCompileTime>() =
+              of.mesh.vertices[v];
+        }
+      },
+      bodies_[body]);
+  return places;
 }
 
 void AdaptedMeshes::refineAll() {

@@ -36,10 +36,10 @@ class AdaptedMeshes {
   [[nodiscard]] bool inSpace() const { return dimension_ == 3; }
   /// Components of displacements of all bodies together.
   [[nodiscard]] int unknowns() const;
-  /// Boundaries whose curves are not known, and vertices that could not be put onto theirs:
-  /// what the estimate does not contain.
+  /// Boundaries whose curves are not known, and vertices that could not be put onto theirs: what the estimate
+  /// does not contain.
   [[nodiscard]] const std::vector<std::string>& polygons(size_t body) const { return polygons_[body]; }
-  [[nodiscard]] int offCurve() const { return offCurve_; }
+  [[nodiscard]] std::vector<SpacePoint> offCurve(size_t body) const;
 
   /// How the errors eta_T^2 [J/m] by bodies and elements have fallen since the last call, at each vertex.
   void learn(const std::vector<Vector>& errors);
@@ -66,6 +66,7 @@ class AdaptedMeshes {
   struct Adapted {
     Mesh mesh;
     Curves curves;
+    std::vector<int> offCurve = {};  ///< vertices
     // By vertices, of the elements around them:
     std::vector<double> error = {};  ///< eta^2 in the last round [J/m]
     std::vector<double> size = {};   ///< [m^2], [m^3]
@@ -90,7 +91,6 @@ class AdaptedMeshes {
   int dimension_;
   std::vector<std::variant<InPlane, InSpace>> bodies_;
   std::vector<std::vector<std::string>> polygons_;  ///< by bodies
-  int offCurve_ = 0;
 };
 
 /// The curves for which the boundary of a mesh stands, as far as they are known, so that a refined mesh tends
@@ -105,9 +105,13 @@ struct KnownCurves {
 
 KnownCurves curvesBehind(const TriangleMesh& mesh);
 
-/// The same in space (contact/boundary_surface.h). Surfaces inside, where two regions meet, keep their
-/// triangles.
+/// The same in space: surfaces of the geometry, else those of contact/boundary_surface.h. Surfaces inside,
+/// where two regions meet, keep their triangles.
 CurvedFaces curvesBehind(const TetrahedronMesh& mesh);
+
+/// Puts vertices of a mesh onto all surfaces of its geometry that meet there: CAD files have the curves
+/// between them to a ten-millionth of the size.
+void putOntoGeometry(TetrahedronMesh& mesh);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the
 // other mesh has no vertex there, the estimate shows half of it on any mesh: one is added.

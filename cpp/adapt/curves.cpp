@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "adapt/adapted_meshes.h"
 #include "contact/boundary_surface.h"
@@ -117,19 +119,81 @@ KnownCurves curvesBehind(const TriangleMesh& mesh) {
   return known;
 }
 
+namespace {
+
+/// Numbers of the surfaces of the geometry by triangles of the boundary.
+std::map<std::array<int, 3>, int> surfacesByTriangles(const BoundaryGeometry& geometry) {
+  std::map<std::array<int, 3>, int> surfaces;
+  for (size_t i = 0; i < geometry.triangles.size() && geometry.surfaces != nullptr; ++i)
+    surfaces[sortedTriangle(geometry.triangles[i])] = geometry.numbers[i];
+  return surfaces;
+}
+
+/// At the vertices of triangles whose surfaces the geometry knows, outward.
+void takeNormals(const TetrahedronMesh& mesh, CurvedFaces& curved) {
+  std::vector<std::pair<int, SpacePoint>> points;
+  std::vector<std::array<int, 2>> keys;
+  std::vector<SpacePoint> facets;
+  std::set<std::array<int, 2>> seen;
+  for (size_t t = 0; t < curved.triangles.size(); ++t) {
+    if (curved.parts[t] >= 0) continue;
+    const auto& [a, b, c] = curved.triangles[t];
+    const SpacePoint facet = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    for (const int v : curved.triangles[t]) {
+      if (!seen.insert({v, curved.parts[t]}).second) continue;
+      keys.push_back({v, curved.parts[t]});
+      points.emplace_back(surfaceOfPart(curved.parts[t]), mesh.vertices[v]);
+      facets.push_back(facet);
+    }
+  }
+  const std::vector<std::optional<SurfaceFoot>> feet = curved.geometry->feet(points);
+  for (size_t i = 0; i < keys.size(); ++i) {
+    SpacePoint& normal = curved.normals[keys[i]];
+    normal = feet[i] ? feet[i]->normal : SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
+    if (normal.dot(facets[i]) < 0) normal = -normal;
+  }
+}
+
+}  // namespace
+
+void putOntoGeometry(TetrahedronMesh& mesh) {
+  constexpr double most = 1e-5;  // of the extent: what CAD files allow
+  const BoundaryGeometry& geometry = mesh.geometry;
+  std::map<int, std::set<int>> surfacesAt;
+  for (const auto& [triangle, surface] : surfacesByTriangles(geometry))
+    for (const int v : triangle) surfacesAt[v].insert(surface);
+  const double farthest = most * extent(mesh);
+  for (const auto& [v, surfaces] : surfacesAt) {
+    const auto isPlane = [&](int surface) { return geometry.surfaces->isPlane(surface); };
+    if (std::all_of(surfaces.begin(), surfaces.end(), isPlane)) continue;
+    const std::optional<SharedPoint> found =
+        sharedPoint(*geometry.surfaces, {surfaces.begin(), surfaces.end()}, mesh.vertices[v]);
+    if (found && (found->at - mesh.vertices[v]).norm() < farthest) mesh.vertices[v] = found->at;
+  }
+}
+
 CurvedFaces curvesBehind(const TetrahedronMesh& mesh) {
   constexpr double parallel = 1e-9;
+  const auto surfaces = surfacesByTriangles(mesh.geometry);
   const BoundarySurface surface = boundarySurface(mesh);
-  CurvedFaces curved{surface.triangles, surface.parts, {}};
+  CurvedFaces curved{surface.triangles, surface.parts, {}, mesh.geometry.surfaces};
   bool plane = true;
-  for (size_t t = 0; t < surface.triangles.size(); ++t)
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto known = surfaces.find(sortedTriangle(surface.triangles[t]));
+    if (known != surfaces.end()) {
+      curved.parts[t] = partOfSurface(known->second);
+      plane = plane && curved.geometry->isPlane(known->second);
+      continue;
+    }
     for (size_t k = 0; k < 3; ++k) {
       const SurfaceNormal& normal = surface.normals[t][k];
       plane = plane && (!normal.known || normal.n.cross(surface.facets[t]).norm() < parallel);
       curved.normals[{surface.triangles[t][k], surface.parts[t]}] =
           normal.known ? normal.n : SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
     }
+  }
   if (plane) return {};
+  if (!surfaces.empty()) takeNormals(mesh, curved);
   return curved;
 }
 

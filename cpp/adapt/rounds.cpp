@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/digits.h"
+#include "base/formatted.h"
 #include "base/interrupt.h"
 #include "material/deviatoric.h"
 #include "plan/loads.h"
@@ -32,8 +33,13 @@ AdaptedMeshes firstMeshes(const ResolvedScene& scene) {
   const int degree = scene.description.degree;
   if (scene.spaceMeshes.empty()) return {scene.meshes, degree};
   std::vector<CurvedFaces> curves;
-  for (const TetrahedronMesh& mesh : scene.spaceMeshes) curves.push_back(curvesBehind(mesh));
-  return {scene.spaceMeshes, std::move(curves), degree};
+  std::vector<TetrahedronMesh> meshes = scene.spaceMeshes;
+  for (TetrahedronMesh& mesh : meshes) {
+    putOntoGeometry(mesh);
+    curves.push_back(curvesBehind(mesh));
+    mesh.geometry = {};  // of the first triangles
+  }
+  return {meshes, std::move(curves), degree};
 }
 
 }  // namespace
@@ -243,9 +249,12 @@ std::vector<std::string> Rounds::doubts() const {
     for (const std::string& line : meshes_.polygons(b))
       doubts.push_back("body " + description_.bodies[b].name + ": " + line +
                        " is a polygon of whose curve nothing is known, which refinement does not change");
-  if (meshes_.offCurve() > 0)
-    doubts.push_back("not on the curve of their boundary, where elements would turn over: " +
-                     counted(meshes_.offCurve(), "vertex"));
+  for (size_t b = 0; b < description_.bodies.size(); ++b)
+    if (const std::vector<SpacePoint> off = meshes_.offCurve(b); !off.empty())
+      doubts.push_back("body " + description_.bodies[b].name + ": not on the " +
+                       (meshes_.inSpace() ? "surface" : "curve") +
+                       " of its boundary, where elements would turn over: " + counted(off.size(), "vertex") +
+                       ", the first at " + placeText(off.front(), meshes_.inSpace() ? 3 : 2));
   return doubts;
 }
 

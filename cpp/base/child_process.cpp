@@ -6,6 +6,7 @@
 #include <linux/seccomp.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -101,7 +102,6 @@ constexpr char isMemory = 'm';
 /// The answer of the child: what it is, and the bytes.
 std::string answerOf(const std::function<std::string()>& work) {
   try {
-    if (!confine(false)) return isError + std::string(": cannot be confined: ") + std::strerror(errno);
     return isResult + work();
   } catch (const std::bad_alloc&) {
     return {isMemory};
@@ -110,68 +110,92 @@ std::string answerOf(const std::function<std::string()>& work) {
   }
 }
 
-void writeAnswer(int pipe, const std::string& answer) {
-  for (std::string_view left = answer; !left.empty();) {
-    const ssize_t n = write(pipe, left.data(), left.size());
-    if (n < 0 && errno != EINTR) break;
-    left.remove_prefix(n < 0 ? 0 : static_cast<size_t>(n));
-  }
+void confineOrThrow() {
+  if (!confine(false)) throw InputError(std::string(": cannot be confined: ") + std::strerror(errno));
 }
 
-[[noreturn]] void runChild(int pipe, const std::function<void(int)>& child) {
+/// The bytes of an answer. \throws InputError, std::bad_alloc
+std::string resultIn(const std::string& answer, const std::string& subject) {
+  if (answer.empty()) throw InputError(subject + " gave up on it");
+  std::string bytes = answer.substr(1);
+  if (answer.front() == isMemory) throw std::bad_alloc();
+  if (answer.front() == isError) throw InputError(bytes.front() == ':' ? subject + bytes : bytes);
+  return bytes;
+}
+
+/// \returns false where nobody reads it
+bool writeTo(int end, std::string_view left) {
+  while (!left.empty()) {
+    const ssize_t n = send(end, left.data(), left.size(), MSG_NOSIGNAL);
+    if (n < 0 && errno != EINTR) return false;
+    left.remove_prefix(n < 0 ? 0 : static_cast<size_t>(n));
+  }
+  return true;
+}
+
+/// Of messages, which begin with it.
+std::string lengthOf(const std::string& message) {
+  const uint64_t size = message.size();
+  return {reinterpret_cast<const char*>(&size), sizeof size};
+}
+
+bool readFrom(int end, char* data, size_t size) {
+  while (size > 0) {
+    const ssize_t n = read(end, data, size);
+    if (n == 0 || (n < 0 && errno != EINTR)) return false;
+    if (n > 0) data += n;
+    if (n > 0) size -= static_cast<size_t>(n);
+  }
+  return true;
+}
+
+bool readMessage(int end, std::string& message) {
+  uint64_t size = 0;
+  if (!readFrom(end, reinterpret_cast<char*>(&size), sizeof size)) return false;
+  message.resize(size);
+  return readFrom(end, message.data(), size);
+}
+
+[[noreturn]] void runChild(int end, const std::function<void(int)>& child) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, file);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  child(pipe);
+  child(end);
   _exit(0);
 }
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::function<std::string()>& work, std::string subject)
+ForkedProcess::ForkedProcess(const std::function<void(int)>& child, std::string subject)
     : subject_(std::move(subject)) {
-  begin([&](int pipe) { writeAnswer(pipe, answerOf(work)); });
-}
-
-ChildProcess::ChildProcess(const std::vector<std::string>& program, std::string subject)
-    : subject_(std::move(subject)) {
-  std::vector<std::string> words = program;
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  begin([&](int pipe) {
-    dup2(pipe, STDOUT_FILENO);
-    if (confine(true)) execvp(arguments.front(), arguments.data());
-    writeAnswer(pipe, isError + (": " + program.front()) + ": " + std::strerror(errno));
-  });
-}
-
-void ChildProcess::begin(const std::function<void(int)>& child) {
   // What another one writes into would stay open in this one.
   static std::mutex oneAtATime;
   const std::scoped_lock alone(oneAtATime);
   int ends[2];
   const auto cannot = [&] { throw OutputError(subject_ + ": no process for it: " + std::strerror(errno)); };
-  if (pipe2(ends, O_CLOEXEC) != 0) cannot();
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) cannot();
   child_ = fork();
-  if (child_ == 0) runChild(ends[1], child);
+  if (child_ == 0) {
+    close(ends[0]);
+    runChild(ends[1], child);
+  }
   close(ends[1]);
-  pipe_ = ends[0];
+  socket_ = ends[0];
   if (child_ > 0) return;
-  close(pipe_);
+  close(socket_);
   cannot();
 }
 
-ChildProcess::~ChildProcess() {
+ForkedProcess::~ForkedProcess() {
   if (child_ < 0) return;
   kill(child_, SIGKILL);
   end();
 }
 
 /// \returns the status of the child
-int ChildProcess::end() {
-  close(pipe_);
+int ForkedProcess::end() {
+  close(socket_);
   int status = 0;
   while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -179,32 +203,99 @@ int ChildProcess::end() {
   return status;
 }
 
-std::string ChildProcess::answer(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  constexpr int pause = 50;  // in milliseconds
-  const auto begin = Clock::now();
-  std::string answer;
-  std::array<char, 65536> block{};
-  for (ssize_t n = 1; n != 0;) {
-    pollfd ready{pipe_, POLLIN, 0};
-    const int any = poll(&ready, 1, pause);
-    stopIfInterrupted();
-    if (std::chrono::duration<double>(Clock::now() - begin).count() > seconds)
-      throw InputError(subject_ + " has not ended with it after " + digits(seconds, 4) +
-                       " s, expected a file that takes less");
-    if (any <= 0) continue;
-    n = read(pipe_, block.data(), block.size());
-    if (n < 0 && errno != EINTR) break;
-    if (n > 0) answer.append(block.data(), static_cast<size_t>(n));
-  }
+void ForkedProcess::join() {
+  if (child_ < 0) throw InputError(subject_ + " gave up on it");
   const int status = end();
   if (WIFSIGNALED(status))
     throw InputError(subject_ + " crashed on it (" + strsignal(WTERMSIG(status)) + ")");
-  if (answer.empty() || WEXITSTATUS(status) != 0) throw InputError(subject_ + " gave up on it");
-  std::string bytes = answer.substr(1);
-  if (answer.front() == isMemory) throw std::bad_alloc();
-  if (answer.front() == isError) throw InputError(bytes.front() == ':' ? subject_ + bytes : bytes);
-  return bytes;
+  if (WEXITSTATUS(status) != 0) throw InputError(subject_ + " gave up on it");
+}
+
+bool ForkedProcess::receive(std::string& answer, std::chrono::steady_clock::time_point begin,
+                            double seconds) const {
+  constexpr int pause = 50;  // in milliseconds
+  pollfd ready{socket_, POLLIN, 0};
+  const int any = poll(&ready, 1, pause);
+  stopIfInterrupted();
+  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds)
+    throw InputError(subject_ + " has not ended with it after " + digits(seconds, 4) +
+                     " s, expected a file that takes less");
+  if (any <= 0) return true;
+  std::array<char, 65536> block{};
+  const ssize_t n = read(socket_, block.data(), block.size());
+  if (n > 0) answer.append(block.data(), static_cast<size_t>(n));
+  return n > 0 || (n < 0 && errno == EINTR);
+}
+
+ChildProcess::ChildProcess(const std::function<std::string()>& work, std::string subject)
+    : ForkedProcess(
+          [&](int end) {
+            writeTo(end, answerOf([&] {
+                      confineOrThrow();
+                      return work();
+                    }));
+          },
+          std::move(subject)) {}
+
+namespace {
+
+void becomeProgram(int end, const std::vector<std::string>& program) {
+  std::vector<std::string> words = program;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  dup2(end, STDOUT_FILENO);
+  if (confine(true)) execvp(arguments.front(), arguments.data());
+  writeTo(end, isError + (": " + program.front()) + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& program, std::string subject)
+    : ForkedProcess([&](int end) { becomeProgram(end, program); }, std::move(subject)) {}
+
+std::string ChildProcess::answer(double seconds) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::string answer;
+  while (receive(answer, begin, seconds)) {
+  }
+  join();
+  return resultIn(answer, subject());
+}
+
+ChildServer::ChildServer(const std::function<Answers()>& start, std::string subject)
+    : ForkedProcess(
+          [&](int end) {
+            Answers answers;
+            const std::string begun = answerOf([&] {
+              confineOrThrow();
+              answers = start();
+              return std::string();
+            });
+            for (std::string request; readMessage(end, request);) {
+              const std::string answer = answers ? answerOf([&] { return answers(request); }) : begun;
+              if (!writeTo(end, lengthOf(answer) + answer)) break;
+            }
+          },
+          std::move(subject)) {}
+
+std::string ChildServer::ask(const std::string& request, double seconds) {
+  const auto begin = std::chrono::steady_clock::now();
+  const size_t head = sizeof(uint64_t);
+  std::string answer;
+  const auto isWhole = [&] {
+    uint64_t size = 0;
+    if (answer.size() >= head) std::memcpy(&size, answer.data(), head);
+    return answer.size() >= head && answer.size() >= head + size;
+  };
+  if (writeTo(socket(), lengthOf(request) + request))
+    while (!isWhole() && receive(answer, begin, seconds)) {
+    }
+  if (!isWhole()) {
+    join();
+    throw InputError(subject() + " gave up on it");
+  }
+  return resultIn(answer.substr(head), subject());
 }
 
 }  // namespace mortier

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "adapt/unclear_contact.h"
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/interrupt.h"
@@ -59,7 +60,8 @@ bool neverTouches(const RunReport& report) {
 
 bool overlaps(const Attempt& round) {
   const RunReport& report = round.solved.report;
-  return report.overlap.refused() || (neverTouches(report) && !report.overlap.explained);
+  const bool space = round.model->bodies.front().dimension() == 3;
+  return report.overlap.refused() || ((space || neverTouches(report)) && !report.overlap.explained);
 }
 
 }  // namespace
@@ -77,6 +79,10 @@ Rounds::Verdict Run::solveRound(const std::shared_ptr<Attempt>& attempt, std::ve
   RoundResult result{errors.errors(), errors.energy(), time, end - begin};
   if (const BodyOverlap& overlap = round.solved.report.overlap; overlaps(round))
     result.missed = {overlap.bodies, overlap.drawn, neverTouches(round.solved.report)};
+  else if (std::optional<MissedContact> unclear = unclearContact(*round.model, round.solved.state)) {
+    unclear->all = neverTouches(round.solved.report);
+    result.missed = unclear;
+  }
   if (!round.facts.aim.empty()) {
     round.solved.accuracy.bound = boundOf(round);
     result.aim = aimOf(round);

@@ -248,6 +248,9 @@ class ContactInterface {
     [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar) const;
   };
   [[nodiscard]] const SurfacePoints& surfacePoints() const { return points_; }
+  /// Where the surfaces as meshed are nearest to each other: a point for each pair of triangles that face
+  /// each other, without areas. None where the distance is given.
+  [[nodiscard]] const SurfacePoints& nearestPoints() const { return nearest_; }
   /// Of the bodies at these points [m].
   [[nodiscard]] Vector pointDistances(double t) const;
   /// The common refinement of the two lines.
@@ -307,6 +310,7 @@ class ContactInterface {
   int heldEnds_ = 0;
   PenetrationIntegral penetration_;
   SurfacePoints points_;  ///< in space
+  SurfacePoints nearest_;
 };
 
 }  // namespace mortier

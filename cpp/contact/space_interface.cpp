@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "contact/interface_entries.h"
+#include "contact/point_entries.h"
 #include "contact/surface.h"
 
 namespace mortier {
@@ -159,16 +160,14 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   if (facing.empty()) throw InputError(names + " do not face each other");
   if (rows == 0) refuseWithoutRows(names);
 
-  // Integrals.
   const Eigen::Index columns1 = 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count());
   const Eigen::Index columns2 = 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count());
   const bool projects = pair.coupling == CouplingKind::mortar;
-  Triplets mass, D, M, trace1, trace2, functions;
+  Triplets mass, D, M;
+  PointEntries points, nearestPoints;
   Vector distance = Vector::Zero(rows);
   Vector least = Vector::Constant(rows, infinity);
   result.lengths_ = Vector::Zero(rows);
-  std::vector<double> areas, gaps;
-  std::array<std::vector<double>, 2> sizes;
   std::vector<DistanceError> errors;
   const auto add = [](Triplets& entries, Eigen::Index row, int node, double value, const SpacePoint& n) {
     for (int c = 0; c < 3; ++c)
@@ -197,14 +196,27 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         parts(std::lower_bound(own.begin(), own.end(), row) - own.begin(), k) += part;
     const auto& nodes1 = nonmortar.triangles[each.nonmortar];
     const auto& nodes2 = mortar.triangles[each.mortar];
+    const auto distanceAt = [&](const Point& l) {
+      const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
+      const Eigen::Vector3d mu = each.at(l);
+      return mortar.distanceAlong(n, mu.dot(each.delta) * n - nonmortar.offset(each.nonmortar, b),
+                                  each.mortar, mu);
+    };
     // Calls at(values of the traces, barycentric coordinates, distance) at a point of the refinement.
     const auto atPoint = [&](const Point& l, auto&& at) {
       const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
-      const Eigen::Vector3d mu = each.at(l);
-      // Of the curved surfaces, that of the triangles but for what these are off.
-      const double apart = mortar.distanceAlong(
-          n, mu.dot(each.delta) * n - nonmortar.offset(each.nonmortar, b), each.mortar, mu);
-      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), b, apart);
+      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, each.at(l)), b, distanceAt(l));
+    };
+    const auto addTo = [&](PointEntries& to) {
+      return [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
+        for (int k = 0; k < nonmortar.perTriangle(); ++k) to.add(to.trace1, nodes1[k], phi[k]);
+        for (int k = 0; k < mortar.perTriangle(); ++k) to.add(to.trace2, nodes2[k], psi[k]);
+        for (Eigen::Index i = 0; i < count; ++i) to.add(to.functions, own[i], parts.row(i).dot(chi));
+        to.distances.push_back(delta);
+        to.sizes[0].push_back(std::sqrt(twiceArea));
+        to.sizes[1].push_back(mortarSize);
+        to.normals.push_back(n);
+      };
     };
     // Integrals of the corners' hat functions times those of the corners, the traces, the distance and one.
     Eigen::Matrix3d hats = Eigen::Matrix3d::Zero();
@@ -230,18 +242,12 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
                   covered += w;
                   nearest = std::min(nearest, delta);
                 });
-      const auto point = static_cast<int>(areas.size());
-      atPoint(p0 + (e1 + e2) / 3, [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
-        for (int k = 0; k < nonmortar.perTriangle(); ++k) trace1.emplace_back(point, nodes1[k], phi[k]);
-        for (int k = 0; k < mortar.perTriangle(); ++k) trace2.emplace_back(point, nodes2[k], psi[k]);
-        for (Eigen::Index i = 0; i < count; ++i) functions.emplace_back(point, own[i], parts.row(i).dot(chi));
-        gaps.push_back(delta);
-      });
-      areas.push_back(area);
-      sizes[0].push_back(std::sqrt(twiceArea));
-      sizes[1].push_back(mortarSize);
-      result.points_.normals.push_back(n);
+      atPoint(p0 + (e1 + e2) / 3, addTo(points));
+      points.areas.push_back(area);
     }
+    if (!options.gap && options.initial != InitialGap::close)
+      atPoint(lowestIn(each.polygon, nonmortar.planar && mortar.planar ? 0 : 9, distanceAt),
+              addTo(nearestPoints));
     errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
     for (Eigen::Index i = 0; i < count; ++i) {
       const int row = own[i];
@@ -261,13 +267,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         add(M, row, nodes2[k], -parts.row(i).dot(traces2.col(k)), n);
     }
   }
-  const auto faced = static_cast<Eigen::Index>(areas.size());
-  result.points_.traces = {assembled(faced, nonmortarMesh.nodes.count(), trace1),
-                           assembled(faced, mortarMesh.nodes.count(), trace2)};
-  result.points_.rows = assembled(faced, rows, functions);
-  result.points_.areas = Eigen::Map<const Vector>(areas.data(), faced);
-  result.points_.distances = Eigen::Map<const Vector>(gaps.data(), faced);
-  for (size_t s = 0; s < 2; ++s) result.points_.sizes[s] = Eigen::Map<const Vector>(sizes[s].data(), faced);
+  const std::array<int, 2> nodes{nonmortarMesh.nodes.count(), mortarMesh.nodes.count()};
+  result.points_ = points.assembled(nodes, rows);
+  result.nearest_ = nearestPoints.assembled(nodes, rows);
   result.overlap_ = result.points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
   if (pair.coupling == CouplingKind::weighted) {
@@ -328,10 +330,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   for (const auto& triangle : mortar.triangles)
     mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
   result.mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
-  const double smaller = std::min(nonmortar.extent, mortar.extent);
   if (!options.gap) {
     result.sagitta_ = visibleError(errors);
-    result.settleDistance(options.initial, smaller, names);
+    result.settleDistance(options.initial, reach, names);
     return result;
   }
   result.N_ = rowsOfDistance(pair.coupling, result.C1_, result.spaceNormals_, result.nonmortarNodes_);

@@ -20,6 +20,7 @@
 #ifdef MORTIER_GMSH
 #include <gmshc.h>
 
+#include "mesh/gmsh_cells.h"
 #include "mesh/gmsh_library.h"
 #endif
 
@@ -60,9 +61,9 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
 template <class Archive>
 void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
   auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-         sharedLabels, sharedRegions, changed, boundaryNormals] = mesh;
+         sharedLabels, sharedRegions, changed, boundaryNormals, geometry] = mesh;
   archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames,
-          sharedLabels, sharedRegions, changed, boundaryNormals);
+          sharedLabels, sharedRegions, changed, boundaryNormals, geometry.triangles, geometry.numbers);
 }
 
 template <class Archive>
@@ -110,24 +111,6 @@ std::vector<Group> groups(const Gmsh& gmsh, int dimension) {
   return result;
 }
 
-/// Node tags of the elements of one type on an entity.
-std::vector<size_t> elements(const Gmsh& gmsh, int type, int entity) {
-  Gmsh::Array<size_t> tags;
-  Gmsh::Array<size_t> nodes;
-  gmsh.call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", type, &tags.data,
-                                                      &tags.size, &nodes.data, &nodes.size, entity, size_t{0},
-                                                      size_t{1});
-  gmsh.take(tags);
-  return gmsh.take(nodes);
-}
-
-std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
-  Gmsh::Array<int> types;
-  gmsh.call<decltype(gmshModelMeshGetElementTypes)>("gmshModelMeshGetElementTypes", &types.data, &types.size,
-                                                    dimension, -1);
-  return gmsh.take(types);
-}
-
 /// Places of all nodes by their tags.
 std::map<size_t, SpacePoint> nodesOf(const Gmsh& gmsh) {
   Gmsh::Array<size_t> tags;
@@ -164,36 +147,6 @@ void open(const Gmsh& gmsh, const MeshSource& source, int dimension) {
     gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", dimension);
   else if (source.size > 0)
     throw InputError(source.path + ": size, expected only for a geometry: this file is a mesh");
-}
-
-/// Cells of Gmsh up to degree 2; their corners are the first of their nodes.
-struct CellType {
-  int type;
-  size_t nodes, corners;
-  bool quadratic;
-};
-constexpr CellType cellTypes[] = {{1, 2, 2, false},  {2, 3, 3, false},  {3, 4, 4, false},  {4, 4, 4, false},
-                                  {5, 8, 8, false},  {6, 6, 6, false},  {7, 5, 5, false},  {8, 3, 2, true},
-                                  {9, 6, 3, true},   {10, 9, 4, true},  {11, 10, 4, true}, {12, 27, 8, true},
-                                  {13, 18, 6, true}, {14, 14, 5, true}, {16, 8, 4, true},  {17, 20, 8, true},
-                                  {18, 15, 6, true}, {19, 13, 5, true}};
-
-/// Node tags of the corners of all cells of a dimension on an entity: use(type, corners).
-template <class Use>
-void forCornersOn(const Gmsh& gmsh, int dimension, int entity, const Use& use) {
-  for (const int type : elementTypes(gmsh, dimension)) {
-    const auto* const known = std::find_if(std::begin(cellTypes), std::end(cellTypes),
-                                           [&](const CellType& each) { return each.type == type; });
-    if (known == std::end(cellTypes))
-      throw InputError(gmsh.path() + ": elements of Gmsh's type " + std::to_string(type) +
-                       ", expected linear or quadratic triangles, quadrangles, tetrahedra, hexahedra, prisms "
-                       "or pyramids");
-    const std::vector<size_t> nodes = elements(gmsh, type, entity);
-    std::vector<size_t> corners;
-    for (size_t i = 0; i + known->nodes <= nodes.size(); i += known->nodes)
-      for (size_t k = 0; k < known->corners; ++k) corners.push_back(nodes[i + k]);
-    use(*known, corners);
-  }
 }
 
 /// Numbers of the vertices of a mesh by the tags of Gmsh's nodes; a node becomes a vertex where it is first
@@ -283,6 +236,35 @@ TriangleMesh planeMesh(const Gmsh& gmsh, const MeshSource& source) {
   return mesh;
 }
 
+/// The triangles on all surfaces that have a shape, in groups or not.
+template <class Numbers>
+void addGeometry(const Gmsh& gmsh, Numbers& vertex, BoundaryGeometry& geometry) {
+  Gmsh::Array<int> pairs;
+  gmsh.call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", &pairs.data, &pairs.size, 2);
+  const std::vector<int> all = gmsh.take(pairs);
+  for (size_t i = 1; i < all.size(); i += 2) {
+    if (shapeOf(gmsh, 2, all[i]).empty()) continue;
+    forCornersOn(gmsh, 2, all[i], [&](const CellType& type, const std::vector<size_t>& corners) {
+      for (size_t k = 0; type.corners == 3 && k < corners.size(); k += 3)
+        geometry.triangles.push_back({vertex(corners[k]), vertex(corners[k + 1]), vertex(corners[k + 2])});
+      geometry.numbers.resize(geometry.triangles.size(), all[i]);
+    });
+  }
+}
+
+/// Leaves out triangles with further vertices.
+void keepVertices(BoundaryGeometry& geometry, int count) {
+  size_t kept = 0;
+  for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const auto& triangle = geometry.triangles[i];
+    if (*std::max_element(triangle.begin(), triangle.end()) >= count) continue;
+    geometry.triangles[kept] = triangle;
+    geometry.numbers[kept++] = geometry.numbers[i];
+  }
+  geometry.triangles.resize(kept);
+  geometry.numbers.resize(kept);
+}
+
 TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   open(gmsh, source, 3);
   const std::map<size_t, SpacePoint> nodes = nodesOf(gmsh);
@@ -295,10 +277,12 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   TetrahedronMesh sides;
   std::vector<int> surfaces;
   addCells(gmsh, 2, vertex, sides.boundaryTriangles, sides.boundaryLabels, mesh.labelNames, &surfaces);
+  addGeometry(gmsh, vertex, mesh.geometry);
   std::map<int, std::map<int, SpacePoint> > normals;  // by surfaces and vertices
   for (const int surface : std::set<int>(surfaces.begin(), surfaces.end()))
     for (const auto& [node, normal] : normalsOn(gmsh, surface)) normals[surface][vertex(node)] = normal;
   mesh.vertices.resize(static_cast<size_t>(used));  // surfaces of no volume have others
+  keepVertices(mesh.geometry, used);
   for (size_t i = 0; i < sides.boundaryTriangles.size(); ++i) {
     const std::array<int, 3>& side = sides.boundaryTriangles[i];
     if (*std::max_element(side.begin(), side.end()) >= used) continue;
@@ -344,7 +328,9 @@ TriangleMesh readGmsh(const MeshSource& source, double seconds) {
 }
 
 TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds) {
-  return readInChild(source, seconds, spaceMesh);
+  TetrahedronMesh mesh = readInChild(source, seconds, spaceMesh);
+  if (!mesh.geometry.triangles.empty()) mesh.geometry.surfaces = gmshSurfaces(source);
+  return mesh;
 }
 
 #endif

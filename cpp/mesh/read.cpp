@@ -143,9 +143,14 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
   TetrahedronMesh mesh;
   mesh.name = plane.name;
   const SweptVertices vertex(plane.vertices, exact, closed, mesh.vertices);
-  const auto addTriangle = [&](const std::array<int, 3>& triangle, int label,
+  const auto addTriangle = [&](const std::array<int, 3>& triangle, int label, size_t surface,
                                const std::array<SpacePoint, 3>& normals) {
     if (!allDifferent(triangle)) return;
+    if (surface >= plane.boundaryEdges.size() || plane.hasCurve(surface) ||
+        (!plane.edgeMiddles.empty() && plane.edgeMiddles[surface].allFinite())) {
+      mesh.geometry.triangles.push_back(triangle);
+      mesh.geometry.numbers.push_back(static_cast<int>(surface));
+    }
     mesh.boundaryTriangles.push_back(triangle);
     mesh.boundaryLabels.push_back(label);
     mesh.boundaryNormals.push_back(normals);
@@ -178,9 +183,9 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
       const bool right = a == plane.boundaryEdges[e][0];  // of the edge is outside
       const Point atA = normalOfEdge(plane, e, a, b, right);
       const Point atB = normalOfEdge(plane, e, b, a, !right);
-      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer + 1, a)}, plane.boundaryLabels[e],
+      addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer + 1, a)}, plane.boundaryLabels[e], e,
                   {swept(atA, a, layer), swept(atB, b, layer), swept(atA, a, layer + 1)});
-      addTriangle({vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)}, plane.boundaryLabels[e],
+      addTriangle({vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)}, plane.boundaryLabels[e], e,
                   {swept(atB, b, layer), swept(atB, b, layer + 1), swept(atA, a, layer + 1)});
     }
   }
@@ -199,10 +204,12 @@ TetrahedronMesh sweptMesh(TriangleMesh plane, const Sweep& sweep) {
     for (const auto& [a, b, c] : plane.triangles) {
       const int layer = end == 0 ? 0 : sweep.layers;
       addTriangle({vertex(layer, a), vertex(layer, b), vertex(layer, c)}, label,
+                  plane.boundaryEdges.size() + static_cast<size_t>(end),
                   {unknownNormal, unknownNormal, unknownNormal});
     }
   }
   validate(mesh);
+  mesh.geometry.surfaces = surfacesOf(plane, exact);
   return mesh;
 }
 

@@ -166,7 +166,7 @@ class Bisection {
     result_.curves.erase({v, b});
     places_.erase(v);
     moved_.erase(found);
-    ++result_.offCurve;
+    result_.offCurve.push_back(v);
     return true;
   }
 

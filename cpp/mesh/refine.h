@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct BisectedMesh {
   Curves curves;             ///< of its edges
   std::vector<int> parents;  ///< of each element, that of the mesh before of which it is a part
   std::vector<std::array<int, 2>> cutEdges;  ///< by new vertices: the edge in whose middle they are
-  int offCurve = 0;  ///< new vertices that are off their curve: on it, an element would turn over
+  std::vector<int> offCurve;  ///< new vertices that are off their curve: on it, an element would turn over
 };
 using RefinedMesh = BisectedMesh<TriangleMesh, CurvedEdges>;
 
@@ -64,18 +65,36 @@ Point middleOfArc(const Point& a, const Point& b, double curvature);
 /// are plane.
 struct CurvedFaces {
   std::vector<std::array<int, 3>> triangles;  ///< of the whole boundary, labelled or not
-  std::vector<int> parts;                     ///< of each: which turn smoothly into each other
+  /// Of each: which turn smoothly into each other, or partOfSurface() where the geometry knows the surface.
+  std::vector<int> parts;
   /// By vertices and parts, of length one; not finite where there is none.
   std::map<std::array<int, 2>, SpacePoint> normals;
+  std::shared_ptr<const GeometrySurfaces> geometry = nullptr;
 };
+
+/// The same triangle for all orders of its vertices.
+inline std::array<int, 3> sortedTriangle(std::array<int, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+inline int partOfSurface(int surface) {
+  return -1 - surface;
+}
+/// \pre part < 0
+inline int surfaceOfPart(int part) {
+  return -1 - part;
+}
 
 using RefinedTetrahedra = BisectedMesh<TetrahedronMesh, CurvedFaces>;
 
 /// Cuts the tetrahedra that are marked, and as many more as it takes. A new vertex of the boundary is put
 /// onto the arc over its edge that is perpendicular to the normals at both ends, or, where two parts meet in
-/// an edge, to those of both; back towards the chord where a half would have less than a quarter of its
-/// volume. Where there is no normal at one end the arc is symmetric. Regions, labels, names and what is known
-/// of boundaryNormals go on.
+/// an edge, to those of both, and from there onto the surfaces of the geometry where these are known. Where a
+/// half would have less than a quarter of its volume, vertices inside the body give way; where that is not
+/// enough the vertex stays on the chord. One on an arc that is not of a geometry goes as far back as it must.
+/// Where there is no normal at one end the arc is symmetric. Regions, labels, names and what is known of
+/// boundaryNormals go on.
 /// \param marked  by tetrahedron
 RefinedTetrahedra bisect(const TetrahedronMesh& mesh, const CurvedFaces& curves,
                          const std::vector<char>& marked);

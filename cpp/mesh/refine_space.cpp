@@ -6,68 +6,12 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/cut_simplices.h"
+
 namespace mortier {
 namespace {
 
 using Edge = std::array<int, 2>;
-
-/// Simplices of n vertices that are cut in place, and where they are.
-template <size_t n>
-class CutSimplices {
- public:
-  using Simplex = std::array<int, n>;
-
-  CutSimplices(const std::vector<Simplex>& simplices, size_t vertices) : all_(simplices), at_(vertices) {
-    for (size_t i = 0; i < all_.size(); ++i)
-      for (const int v : all_[i]) at_[v].push_back(static_cast<int>(i));
-    parents_.resize(all_.size());
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-
-  [[nodiscard]] size_t count() const { return all_.size(); }
-  [[nodiscard]] const std::vector<Simplex>& all() const { return all_; }
-  [[nodiscard]] const Simplex& operator[](int i) const { return all_[i]; }
-  [[nodiscard]] int parent(int i) const { return parents_[i]; }
-
-  /// Those with an edge, ascending.
-  [[nodiscard]] std::vector<int> around(const Edge& edge) const {
-    std::vector<int> found;
-    if (std::max(edge[0], edge[1]) >= static_cast<int>(at_.size())) return found;
-    const bool first = at_[edge[0]].size() < at_[edge[1]].size();
-    for (const int i : at_[edge[first ? 0 : 1]])
-      if (std::find(all_[i].begin(), all_[i].end(), edge[first ? 1 : 0]) != all_[i].end()) found.push_back(i);
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  /// Cuts one at vertex m of its edge: the half at its first end stays, the other one is put last.
-  void cut(int i, const Edge& edge, int m) {
-    at_.resize(std::max(at_.size(), static_cast<size_t>(m) + 1));
-    const auto last = static_cast<int>(all_.size());
-    Simplex second = all_[i];
-    std::replace(all_[i].begin(), all_[i].end(), edge[1], m);
-    std::replace(second.begin(), second.end(), edge[0], m);
-    std::vector<int>& left = at_[edge[1]];
-    left.erase(std::find(left.begin(), left.end(), i));
-    at_[m].push_back(i);
-    for (const int v : second) at_[v].push_back(last);
-    all_.push_back(second);
-    parents_.push_back(parents_[i]);
-  }
-
-  /// The same in the order of their parents.
-  [[nodiscard]] std::vector<int> byParents() const {
-    std::vector<int> order(all_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return parents_[i] < parents_[j]; });
-    return order;
-  }
-
- private:
-  std::vector<Simplex> all_;
-  std::vector<int> parents_;
-  std::vector<std::vector<int>> at_;  ///< by vertices
-};
 
 /// Surfaces that meet at a larger angle than this sine have an edge there.
 constexpr double sharpSine = 0.34;
@@ -86,7 +30,9 @@ class SpaceBisection {
         curved_(curves.triangles, mesh.vertices.size()) {
     result_.mesh = mesh;
     result_.curves.normals = curves.normals;
+    result_.curves.geometry = curves.geometry;
     oldParts_ = curves.parts;
+    onSurface_ = 1e-11 * extent(mesh);
     for (size_t t = 0; t < tetrahedra_.count(); ++t) longest_.push_back(longestOf(static_cast<int>(t)));
     isCut_.assign(tetrahedra_.count(), 0);
   }
@@ -169,13 +115,85 @@ class SpaceBisection {
         if (normal(v, part).allFinite()) sum += normal(v, part);
       result_.curves.normals[{m, part}] = perpendicular(sum, d.normalized());
     }
-    if (sagitta.isZero(0)) return;
     const SpacePoint middle = place(m);
+    if (*parts.begin() < 0) {
+      putOntoSurfaces(m, edge, surface, middle + sagitta, around);
+      return;
+    }
+    if (sagitta.isZero(0)) return;
     for (const double share : {1.0, 0.5, 0.25, 0.0}) {
       result_.mesh.vertices[m] = middle + share * sagitta;
       if (share == 0 || !spoils(m, edge, around)) break;
-      if (share == 1) ++result_.offCurve;
+      if (share == 1) result_.offCurve.push_back(m);
     }
+  }
+
+  /// Onto those of the geometry. \param near  where the vertex is, nearly
+  void putOntoSurfaces(int m, const Edge& edge, const std::vector<int>& triangles, const SpacePoint& near,
+                       const std::vector<int>& around) {
+    const GeometrySurfaces& geometry = *result_.curves.geometry;
+    std::vector<int> surfaces;
+    std::vector<SpacePoint> facets;
+    for (const int i : triangles) {
+      const int part = oldParts_[curved_.parent(i)];
+      if (part >= 0) continue;
+      const auto& [a, b, c] = curved_[i];
+      const int surface = surfaceOfPart(part);
+      if (std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end()) continue;
+      surfaces.push_back(surface);
+      facets.push_back((place(b) - place(a)).cross(place(c) - place(a)));
+    }
+    if (std::all_of(surfaces.begin(), surfaces.end(), [&](int each) { return geometry.isPlane(each); })) {
+      for (const int surface : surfaces)
+        result_.curves.normals[{m, partOfSurface(surface)}] = normal(edge[0], partOfSurface(surface));
+      return;
+    }
+    const SpacePoint middle = place(m);
+    const double half = (place(edge[1]) - place(edge[0])).norm() / 2;
+    const std::optional<SharedPoint> found = sharedPoint(geometry, surfaces, near);
+    if (!found || !((found->at - middle).norm() < half)) {
+      result_.offCurve.push_back(m);
+      return;
+    }
+    for (size_t k = 0; k < surfaces.size(); ++k)
+      result_.curves.normals[{m, partOfSurface(surfaces[k])}] =
+          found->normals[k].dot(facets[k]) < 0 ? SpacePoint(-found->normals[k]) : found->normals[k];
+    result_.mesh.vertices[m] = found->at;
+    const bool spoilt =
+        spoils(m, edge, around) && !(makeRoom(edge, around, found->at - middle) && !spoils(m, edge, around));
+    if (spoilt) result_.mesh.vertices[m] = middle;
+    if (spoilt || found->off > onSurface_) result_.offCurve.push_back(m);
+  }
+
+  /// Moves vertices inside the body that tetrahedra around an edge have by a part of what its middle moves.
+  /// \returns whether one has moved
+  bool makeRoom(const Edge& edge, const std::vector<int>& around, const SpacePoint& shift) {
+    constexpr double least = 0.5;  // of the volume of the tetrahedra there
+    std::set<int> inside;
+    for (const int t : around)
+      for (const int v : tetrahedra_[t])
+        if (v != edge[0] && v != edge[1] && !curved_.has(v)) inside.insert(v);
+    bool any = false;
+    for (const int v : inside) {
+      const std::vector<int>& own = tetrahedra_.at(v);
+      const SpacePoint before = place(v);
+      std::vector<double> volumes;
+      for (const int t : own) volumes.push_back(volume(result_.mesh, tetrahedra_[t]));
+      const auto regionOf = [&](int t) { return old_.regions[tetrahedra_.parent(t)]; };
+      if (std::any_of(own.begin(), own.end(), [&](int t) { return regionOf(t) != regionOf(own.front()); }))
+        continue;
+      for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+        result_.mesh.vertices[v] = before + share * shift;
+        bool fits = true;
+        for (size_t i = 0; i < own.size() && fits; ++i)
+          fits = volume(result_.mesh, tetrahedra_[own[i]]) > least * volumes[i];
+        if (!fits && share > 0) continue;
+        any = any || share > 0;
+        break;
+      }
+      for (const int t : own) longest_[t] = longestOf(t);
+    }
+    return any;
   }
 
   [[nodiscard]] bool spoils(int m, const Edge& edge, const std::vector<int>& around) const {
@@ -240,18 +258,27 @@ class SpaceBisection {
       result_.curves.parts.push_back(oldParts_[curved_.parent(static_cast<int>(i))]);
   }
 
-  /// Those of the geometry at old vertices.
+  /// Those of the geometry at new vertices where it knows their surfaces, at others those before.
   void keepNormals() {
     std::vector<std::array<SpacePoint, 3>>& normals = result_.mesh.boundaryNormals;
     normals.clear();
+    std::map<std::array<int, 3>, int> partOf;
+    for (size_t i = 0; i < curved_.count(); ++i)
+      if (const int part = oldParts_[curved_.parent(static_cast<int>(i))]; part < 0)
+        partOf[sortedTriangle(curved_.all()[i])] = part;
     for (size_t i = 0; i < labelled_.count() && !old_.boundaryNormals.empty(); ++i) {
+      const auto known = partOf.find(sortedTriangle(labelled_.all()[i]));
       const auto parent = static_cast<size_t>(labelled_.parent(static_cast<int>(i)));
       const auto& before = old_.boundaryTriangles[parent];
       std::array<SpacePoint, 3>& own = normals.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
         const auto at = std::find(before.begin(), before.end(), labelled_.all()[i][k]);
-        own[k] = at == before.end() ? SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN())
-                                    : old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
+        if (known != partOf.end())
+          own[k] = normal(labelled_.all()[i][k], known->second);
+        else if (at != before.end())
+          own[k] = old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
+        else
+          own[k].setConstant(std::numeric_limits<double>::quiet_NaN());
       }
     }
   }
@@ -262,6 +289,7 @@ class SpaceBisection {
   std::vector<int> oldParts_;
   std::vector<Edge> longest_;  ///< of tetrahedra, smaller vertex first
   std::vector<char> isCut_;    ///< tetrahedra of the mesh before, and all new ones
+  double onSurface_ = 0;       ///< distance of vertices that are on their surfaces [m]
   RefinedTetrahedra result_;
 };
 

@@ -60,6 +60,7 @@ void keepEdges(TriangleMesh& mesh, const Keep& keep) {
 template <class Keep>
 void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
   keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels, mesh.boundaryNormals);
+  keepItems(keep, mesh.geometry.triangles, mesh.geometry.numbers);
 }
 
 /// \param elements  triangles or tetrahedra of the mesh
@@ -77,8 +78,8 @@ void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>
 }
 
 /// Leaves out vertices that none of the elements has, and numbers the others by their order in them.
-template <class Mesh, class Elements, class Boundary>
-void renumberVertices(Mesh& mesh, Elements& elements, Boundary& boundary) {
+template <class Mesh, class Elements, class... Boundary>
+void renumberVertices(Mesh& mesh, Elements& elements, Boundary&... boundary) {
   std::vector<int> numbers(mesh.vertices.size(), -1);
   auto vertices = std::exchange(mesh.vertices, {});
   const auto renumber = [&](int& v) {
@@ -90,8 +91,11 @@ void renumberVertices(Mesh& mesh, Elements& elements, Boundary& boundary) {
   };
   for (auto& corners : elements)
     for (int& v : corners) renumber(v);
-  for (auto& item : boundary)
-    for (int& v : item) renumber(v);
+  const auto renumberAll = [&](auto& items) {
+    for (auto& item : items)
+      for (int& v : item) renumber(v);
+  };
+  (renumberAll(boundary), ...);
 }
 
 using Names = std::map<std::string, int>;
@@ -251,7 +255,7 @@ void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions)
   keepElements(mesh, mesh.tetrahedra, regions);
   const TriangleCount count(mesh);
   keepTriangles(mesh, [&](const std::array<int, 3>& triangle) { return count(triangle) == 1; });
-  renumberVertices(mesh, mesh.tetrahedra, mesh.boundaryTriangles);
+  renumberVertices(mesh, mesh.tetrahedra, mesh.boundaryTriangles, mesh.geometry.triangles);
 }
 
 void dropInnerTriangles(TetrahedronMesh& mesh) {

@@ -67,6 +67,14 @@ struct RoundBody {
   std::array<int, 2> cells{1, 1};  ///< along a radius, and along the height
 };
 
+/// The plane sides of a cuboid.
+struct BoxSide {
+  int axis, end, label;
+};
+inline constexpr std::array<BoxSide, 6> boxSides{
+    {{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
+inline constexpr int roundLabel = 7;
+
 /// A box of cells whose squares or cubes about the centre become circles or spheres. Labels: those of a
 /// cuboid for plane sides, 7 "round" for the round one. \throws InputError unless sizes are positive.
 TetrahedronMesh roundMesh(const RoundBody& body);

@@ -13,11 +13,6 @@ namespace {
 constexpr std::array<std::array<int, 4>, 6> tetrahedraOfCell{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
-struct Side {
-  int axis, end, label;
-};
-constexpr std::array<Side, 6> boxSides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
-
 /// \param mirrored  how many cells from the lower end on are mirrored, by axes
 TetrahedronMesh boxMesh(const Cuboid& cuboid, const std::array<int, 3>& mirrored) {
   const int nx = cuboid.cells[0], ny = cuboid.cells[1], nz = cuboid.cells[2];
@@ -95,16 +90,16 @@ TetrahedronMesh roundMesh(const RoundBody& body) {
   for (int& label : mesh.boundaryLabels)
     for (const auto& [axis, end, sideLabel] : boxSides)
       if (label == sideLabel && axis < rounded && body.keep[axis] != (end == 0 ? 1 : -1)) {
-        label = 7;
+        label = roundLabel;
         break;
       }
-  mesh.labelNames["round"] = 7;
+  mesh.labelNames["round"] = roundLabel;
   for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
     std::array<SpacePoint, 3>& normals = mesh.boundaryNormals.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
       const SpacePoint x = mesh.vertices[mesh.boundaryTriangles[i][k]] - body.centre;
       normals[k] = SpacePoint::Zero();
-      if (mesh.boundaryLabels[i] == 7)
+      if (mesh.boundaryLabels[i] == roundLabel)
         normals[k].head(rounded) = x.head(rounded).normalized();
       else
         normals[k].setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -116,6 +111,7 @@ TetrahedronMesh roundMesh(const RoundBody& body) {
   });
   mesh.name = body.ball ? "ball" : "cylinder";
   validate(mesh);
+  mesh.geometry = {surfacesOf(body), mesh.boundaryTriangles, mesh.boundaryLabels};
   return mesh;
 }
 

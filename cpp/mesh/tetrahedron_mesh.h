@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "mesh/geometry_surfaces.h"
 
 namespace mortier {
 
@@ -28,6 +29,7 @@ struct TetrahedronMesh {
   /// By boundary triangles and their vertices: outward normals of the geometry behind them, of length one;
   /// not finite where that is not known. Empty: nowhere.
   std::vector<std::array<SpacePoint, 3>> boundaryNormals = {};
+  BoundaryGeometry geometry = {};
 };
 
 /// Checks what the solver relies on, and orients tetrahedra and boundary triangles: finite coordinates, no

@@ -20,7 +20,9 @@ bool actsAtOnce(const Model& model, const State& state) {
     double largest = 0;
     for (const int b : {model.interfaces[k].pair().nonmortar.body, model.interfaces[k].pair().mortar.body})
       largest = std::max(largest, model.bodies[b].largestCoordinate());
-    acts = acts || (state.gap[k].array() > rounding * largest).any();
+    // An overlap as drawn that may be none: what is not known of curved surfaces.
+    const double unknown = model.interfaces[k].dimension() == 3 ? model.interfaces[k].sagitta() : 0;
+    acts = acts || (state.gap[k].array() > std::max(unknown, rounding * largest)).any();
   }
   return model.any(acts);
 }

@@ -233,6 +233,7 @@ BodyOverlap OverlapCheck::findHere(const std::vector<Vector>& u, const std::vect
       for (const Region& region : spaceDrawn_.empty() ? inPlane(one, other, places, contacts)
                                                       : inSpace(one, other, places, contacts))
         judge(region, contacts, worst);
+      for (const Region& region : behindMeshes(contacts, places, u, time)) judge(region, contacts, worst);
     }
   return worst;
 }

@@ -81,6 +81,10 @@ class OverlapCheck {
                                             const std::vector<Between>& contacts) const;
   [[nodiscard]] std::vector<Region> inSpace(size_t one, size_t other, const Places& places,
                                             const std::vector<Between>& contacts) const;
+  /// Of the curved surfaces of contacts, by their rows, which may not press although the surfaces overlap
+  /// between the nodes: one region for each contact in which they do.
+  [[nodiscard]] std::vector<Region> behindMeshes(const std::vector<Between>& contacts, const Places& places,
+                                                 const std::vector<Vector>& u, double time) const;
   [[nodiscard]] bool drawnOnly(size_t b, int label) const;
   void judge(const Region& region, const std::vector<Between>& contacts, BodyOverlap& worst) const;
 

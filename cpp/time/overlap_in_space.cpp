@@ -98,4 +98,45 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
   return {region};
 }
 
+std::vector<OverlapCheck::Region> OverlapCheck::behindMeshes(const std::vector<Between>& contacts,
+                                                             const Places& places,
+                                                             const std::vector<Vector>& u,
+                                                             double time) const {
+  constexpr double known = 1e-6;  // of an element: of the least distance in it
+  std::vector<Region> regions;
+  for (const Between& contact : contacts) {
+    const ContactInterface& interface = *contact.interface;
+    if (interface.dimension() != 3 || model_.inParts()) continue;
+    const bool given = interface.distanceIsGiven();
+    const ContactInterface::SurfacePoints& points =
+        given ? interface.surfacePoints() : interface.nearestPoints();
+    const ContactPair& pair = interface.pair();
+    const std::array<int, 2> bodies{pair.nonmortar.body, pair.mortar.body};
+    const Matrix jump = points.jump(u[bodies[0]], u[bodies[1]]);
+    const Matrix moved = points.traces[0] * u[bodies[0]].reshaped(3, u[bodies[0]].size() / 3).transpose();
+    const Vector apart = given ? interface.pointDistances(time) : points.distances;
+    std::array<Matrix, 2> drawn;
+    for (const size_t side : {0, 1}) {
+      const std::vector<SpacePoint>& x = body(bodies[side]).space()->nodes().places;
+      drawn[side] =
+          points.traces[side] * Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+                                    x.front().data(), x.size(), 3);
+    }
+    Region region;
+    for (Eigen::Index i = 0; i < jump.cols(); ++i) {
+      const double depth = points.normals[i].dot(jump.col(i)) - apart[i];
+      const double size = points.sizes[0][i];
+      const double always = places.residual + places.rounding + known * size;
+      if (!(depth > always)) continue;
+      Sample sample{bodies,  {pair.nonmortar.label, pair.mortar.label}, {}, depth, size, size, always,
+                    infinity};
+      for (const size_t side : {0, 1}) sample.drawn[side] = drawn[side].row(i);
+      sample.at = sample.drawn[0] + moved.row(i).transpose();
+      region.samples.push_back(sample);
+    }
+    if (!region.samples.empty()) regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
 }  // namespace mortier

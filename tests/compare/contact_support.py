@@ -162,7 +162,7 @@ def solve(program, text, *options, files=None, fields=False, patience=120, comma
             return Run(None, f"took more than {patience} s of processor time", "")
         told = " ".join(line for line in done.stderr.splitlines() if ": warning: " not in line)
         run = Run(done.returncode, told, done.stdout + done.stderr)
-        out = folder / ("out" if done.returncode == 0 else "out.failed")
+        out = folder / ("out" if (folder / "out").exists() else "out.failed")
         if command == "run" and (out / "summary.json").exists():
             run.summary = json.loads((out / "summary.json").read_text())
             run.history = table(out / "history.csv")

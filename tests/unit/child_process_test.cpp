@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "unit/messages.h"
 
 namespace mortier::child_process_test {
 
@@ -114,6 +115,31 @@ TEST(ChildProcess, startsNothingAndChangesNoFile) {
   EXPECT_EQ(done, ".........mine");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   fs::remove_all(folder);
+}
+
+TEST(ChildServer, answersAsOftenAsItIsAsked) {
+  ChildServer server(
+      [] {
+        return [count = 0](const std::string& request) mutable {
+          if (request == "fail") throw InputError("no such thing");
+          if (request == "crash") std::raise(SIGSEGV);
+          return request + std::to_string(++count);
+        };
+      },
+      "part.step: Gmsh");
+  const std::string large(1 << 20, 'x');
+  EXPECT_EQ(server.ask("one ", 60), "one 1");
+  EXPECT_EQ(server.ask(large, 60), large + "2");
+  EXPECT_EQ(messageOf([&] { server.ask("fail", 60); }), "no such thing");
+  EXPECT_EQ(server.ask("", 60), "3");
+  EXPECT_NE(messageOf([&] { server.ask("crash", 60); }).find("part.step: Gmsh crashed on it"),
+            std::string::npos);
+  EXPECT_NE(messageOf([&] { server.ask("one", 60); }), "");
+}
+
+TEST(ChildServer, whatFailsAtTheStartIsTheAnswer) {
+  ChildServer server([]() -> ChildServer::Answers { throw InputError("not a file"); }, "");
+  EXPECT_EQ(messageOf([&] { server.ask("one", 60); }), "not a file");
 }
 
 }  // namespace mortier::child_process_test

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "adapt/adapted_meshes.h"
+#include "mesh/read.h"
 #include "unit/space_meshes.h"
 
 namespace mortier::refine_space_test {
@@ -175,7 +176,7 @@ TEST(RefineSpace, verticesOfASphereLieOnIt) {
     const std::vector<char> marks =
         round < 4 ? std::vector<char>(mesh.tetrahedra.size(), 1) : randomMarks(mesh, random);
     RefinedTetrahedra next = bisect(mesh, curves, marks);
-    EXPECT_EQ(next.offCurve, 0);
+    EXPECT_TRUE(next.offCurve.empty());
     mesh = std::move(next.mesh);
     curves = std::move(next.curves);
     expectSound(mesh);
@@ -237,10 +238,90 @@ TEST(RefineSpace, noTetrahedronTurnsOver) {
     RefinedTetrahedra next = bisect(mesh, curves, randomMarks(mesh, random));
     mesh = std::move(next.mesh);
     curves = std::move(next.curves);
-    offCurve += next.offCurve;
+    offCurve += static_cast<int>(next.offCurve.size());
     expectSound(mesh);
   }
   EXPECT_GT(offCurve, 0);
+}
+
+/// After rounds of random marks; the largest distance of vertices from a label's surface.
+template <class Distance>
+double offAfterRounds(TetrahedronMesh mesh, int label, const Distance& distance) {
+  putOntoGeometry(mesh);
+  CurvedFaces curves = curvesBehind(mesh);
+  std::mt19937 random(5);
+  for (int round = 0; round < 8; ++round) {
+    const std::vector<char> marks =
+        round < 3 ? std::vector<char>(mesh.tetrahedra.size(), 1) : randomMarks(mesh, random);
+    RefinedTetrahedra next = bisect(mesh, curves, marks);
+    EXPECT_TRUE(next.offCurve.empty());
+    mesh = std::move(next.mesh);
+    curves = std::move(next.curves);
+    for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i)
+      for (size_t k = 0; k < 3 && mesh.boundaryLabels[i] == label; ++k)
+        EXPECT_NEAR(mesh.boundaryNormals[i][k].norm(), 1, 1e-14) << "new vertices have normals";
+  }
+  expectSound(mesh);
+  double most = 0;
+  for (const int v : verticesOn(mesh, label)) most = std::max(most, std::abs(distance(mesh.vertices[v])));
+  return most;
+}
+
+// Labels end at planes and at each other, and first meshes are coarse.
+TEST(RefineSpace, verticesOfShapesLieOnThem) {
+  const SpacePoint centre(1, 2, 3);
+  for (const std::array<int, 3>& keep : {std::array<int, 3>{0, 0, 0}, std::array<int, 3>{1, 1, -1}}) {
+    const auto ofBall = [&](const SpacePoint& x) { return (x - centre).norm() - 2; };
+    EXPECT_LE(offAfterRounds(roundMesh({true, centre, 2, 1, keep, {2, 1}}), 7, ofBall), 1e-14);
+    const auto ofCylinder = [&](const SpacePoint& x) { return (x - centre).head<2>().norm() - 2; };
+    EXPECT_LE(offAfterRounds(roundMesh({false, centre, 2, 3, {keep[0], keep[1], 0}, {2, 2}}), 7, ofCylinder),
+              1e-14);
+  }
+}
+
+TEST(RefineSpace, verticesOfSweptCurvesLieOnTheirSurfaces) {
+  MeshShape ring{Annulus{{0, 0}, 1, 2, 1, 3, 1}};
+  const auto inner = [](const SpacePoint& x) { return x.head<2>().norm() - 1; };
+  EXPECT_LE(offAfterRounds(sweptMesh(shapeMesh(ring), {1, 0, 2}), 1, inner), 1e-14);
+  ring = MeshShape{Annulus{{3, 0}, 0.5, 1, 4, 8, 1}};  // a hollow torus, half of it
+  const auto torus = [](const SpacePoint& x) { return std::hypot(std::hypot(x.x(), x.z()) - 3, x.y()) - 1; };
+  EXPECT_LE(offAfterRounds(sweptMesh(shapeMesh(ring), {0, M_PI, 9}), 2, torus), 1e-13);
+}
+
+// Two cylinders that cross each other at any angle, and one beside a plane that touches it.
+TEST(RefineSpace, pointsOfTwoSurfacesAreOnBoth) {
+  struct Cylinders : GeometrySurfaces {
+    [[nodiscard]] std::vector<std::optional<SurfaceFoot>> feet(
+        const std::vector<std::pair<int, SpacePoint>>& points) const override {
+      std::vector<std::optional<SurfaceFoot>> result;
+      for (const auto& [surface, x] : points) {
+        SpacePoint n = x;
+        n[surface] = 0;
+        n.normalize();
+        SpacePoint at = (surface == 0 ? 0.6 : 1) * n;
+        at[surface] = x[surface] + 1e-3 * (x - at).norm();  // nearest but for a part of the way
+        if (surface == 1) at = {x.x(), x.y(), 0.6};
+        if (surface == 1) n = {0, 0, 1};
+        result.emplace_back(SurfaceFoot{at, n});
+      }
+      return result;
+    }
+    [[nodiscard]] std::optional<SpacePoint> onSharedCurve(int, int, const SpacePoint& x) const override {
+      return touches ? std::optional(SpacePoint(x.x(), 0, 0.6)) : std::nullopt;
+    }
+    [[nodiscard]] bool isPlane(int surface) const override { return surface == 1; }
+    bool touches = false;
+  };
+  Cylinders geometry;  // 0 along x with radius 0.6, 2 along z with radius 1, 1 the plane z = 0.6
+  const std::optional<SharedPoint> crossed = sharedPoint(geometry, {0, 2}, {0.9, 0.5, 0.4});
+  ASSERT_TRUE(crossed);
+  EXPECT_LE(crossed->off, 1e-15);
+  EXPECT_NEAR(crossed->at.head<2>().norm(), 1, 1e-15);
+  EXPECT_NEAR(crossed->at.tail<2>().norm(), 0.6, 1e-15);
+  geometry.touches = true;
+  const std::optional<SharedPoint> touching = sharedPoint(geometry, {0, 1}, {0.3, 0.02, 0.61});
+  ASSERT_TRUE(touching);
+  EXPECT_LE(touching->off, 1e-15);
 }
 
 TEST(RefineSpace, arcsAreExactAndSharpTurnsStraight) {

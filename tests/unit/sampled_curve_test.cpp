@@ -118,7 +118,7 @@ TEST(EdgeCurve, refinedVerticesAndMiddlesAreOnIt) {
     std::vector<char> marks(mesh.triangles.size(), 0);
     for (char& mark : marks) mark = random() % 6 == 0 ? 1 : 0;
     RefinedMesh next = bisect(mesh, {}, marks);
-    EXPECT_EQ(next.offCurve, 0);
+    EXPECT_TRUE(next.offCurve.empty());
     mesh = std::move(next.mesh);
     validate(mesh);
   }
@@ -151,7 +151,7 @@ TEST(EdgeCurve, aVertexThatWouldTurnATriangleOverStaysOnTheChord) {
   mesh.edgeCurves[0].curve = std::make_shared<const SampledCurve>(sampledFrom(bulge, 1e-11));
   mesh.edgeMiddles = {bulge(0.5), Point(NAN, NAN), Point(NAN, NAN)};
   const RefinedMesh next = bisect(mesh, {}, {1});
-  EXPECT_EQ(next.offCurve, 1);
+  EXPECT_EQ(next.offCurve.size(), 1U);
   EXPECT_EQ(next.mesh.vertices.back(), Point(1, 0));
   for (size_t e = 0; e < next.mesh.boundaryEdges.size(); ++e) {
     EXPECT_FALSE(next.mesh.hasCurve(e));
