@@ -73,6 +73,7 @@ PlaneCurve curveOf(const TriangleMesh& plane, size_t e) {
     result.curve = plane.edgeCurves[e];
     return result;
   }
+  if (plane.edgeMiddles.empty()) return result;
   const Point half = (result.b - result.a) / 2;
   const Point rise = plane.edgeMiddles[e] - result.a - half;
   const double sagitta = rise.norm();
