@@ -133,26 +133,27 @@ def in_space(results, given):
     return True in kinds
 
 
-def report(given):
+def make_report(given):
     require("numpy", "meshio")
     import files
+    import report
     import runs
 
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
         raise Wrong(f"--out {out}: expected a file NAME.html")
     found = [runs.Result(folder) for folder in given.results]
-    if in_space(found, given):
+    space = in_space(found, given)
+    if space:
         require("matplotlib")
         import curves
-        import space_report as reports
+        import three
         if len(found) > len(curves.OF_RUNS):
             raise Wrong(f"{len(found)} results, expected {len(curves.OF_RUNS)} at most")
-    else:
-        import report as reports
-    page = reports.page(found)
+    page = report.page(found)
     files.put({out: page.encode()})
-    print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
+    still = f"; {three.MISSING}" if space and three.program() is None else ""
+    print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB{still}")
 
 
 def compare(given):
@@ -187,7 +188,7 @@ def view(given):
     require("numpy")
     import results
     try:
-        return {"plot": plot, "report": report, "compare": compare}[given.command](given)
+        return {"plot": plot, "report": make_report, "compare": compare}[given.command](given)
     except results.ResultError as error:
         raise Wrong(error) from error
 

@@ -72,6 +72,11 @@ class Block:
         self.parts.append(data)
         return q, e
 
+    def add_integers(self, numbers):
+        """As they are: so many digits that the exponent is 0."""
+        largest = int(np.abs(numbers).max(initial=0))
+        self.add(np.asarray(numbers, float), len(str(largest)) if largest else 1)
+
     def back(self, blocks, e):
         """The integers of the same array so many blocks earlier, times 10^e here;
         None where they are too different."""

@@ -9,6 +9,7 @@ from matplotlib.ticker import MaxNLocator
 import pictures
 import results
 from columns import ROUNDING, labelled
+from contact_surface import surface_of
 from pictures import COLOURS, INK, MUTED, SIGNED_COLOURS, bodies_of, plt
 from runs import extent, natural_scale
 from shapes import placed
@@ -20,13 +21,6 @@ PRESSURES = "YlOrRd"
 ALONG_AN_AXIS = 0.999  # cosine
 CLOSED = 0.3  # of the area of a surface that its mean normal has left, below which the eye looks as at bodies
 MARKED = 400  # nodes of a contact surface that are not too many to be marked
-
-
-def surface_of(body):
-    """Made once for a body as it was read."""
-    if not hasattr(body, "surface"):
-        body.surface = Surface(body)
-    return body.surface
 
 
 def window_of(views, scale, look):
