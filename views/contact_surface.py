@@ -1,4 +1,4 @@
-"""Contact surfaces of bodies in space: nodal values on them, what is near them, from where they are seen."""
+"""Contact surfaces of bodies in space: nodal values on them, what is near them; from where bodies are seen."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +8,7 @@ from surfaces import MIDDLE, Buffer, Seen, Surface, camera
 FIELDS = ("pressure", "gap")
 NAMED = {"front": (-90.0, 0.0), "top": (-90.0, 90.0)}  # azimuth and elevation of the eye, degrees
 CONTACT = "contact"
+START = (-60.0, 25.0)
 CURVED = 0.3  # of the area of a surface that its mean normal has left, below which it has no side
 ALONG_AN_AXIS = 0.9  # cosine
 TILTS = (35, 65)  # degrees from the mean normal, of directions that are tried
@@ -24,7 +25,8 @@ def surface_of(body):
 def attach(run, interfaces):
     """Gives bodies `contact`, pressure and gap by node (not a number where there is none; of a node on two
     nonmortar sides the larger pressure and the smaller gap; in the middle of a side the mean of its ends), and
-    `near`, whether a tetrahedron is near closed contact; None where nothing is closed."""
+    `near`, whether a tetrahedron is near closed contact, no farther than that is large; None where nothing is
+    closed."""
     contact = run.contact
     nonmortar = {each["nonmortar"] for each in interfaces}
     for name, body in run.bodies.items():
@@ -37,12 +39,17 @@ def attach(run, interfaces):
                                                if each["nonmortar"] == name])
             merge.at(values, contact.vertex[rows], getattr(contact, which)[rows])
             body.contact[which] = with_middles(body, values)
-    closed = [contact.position[(contact.interface == k) & (contact.force > 0)] for k in range(len(interfaces))]
-    for name, body in run.bodies.items():
-        for points, each in zip(closed, interfaces):
-            if len(points) and points.shape[1] == 3 and name in (each["nonmortar"], each["mortar"]):
-                found = near(body, points)
-                body.near = found if body.near is None else body.near | found
+    for k, each in enumerate(interfaces):
+        closed = (contact.interface == k) & (contact.force > 0)
+        points, body = contact.position[closed], run.bodies[each["nonmortar"]]
+        if not len(points) or points.shape[1] != 3:
+            continue
+        beside = np.isin(body.tetrahedra, contact.vertex[closed]).any(1)
+        margin = np.ptp(points, axis=0).max() + np.ptp(body.points[body.tetrahedra[beside]], axis=1).max(1).mean()
+        for of in (body, run.bodies[each["mortar"]]):
+            middles = of.points[of.tetrahedra].mean(1)
+            found = ((middles >= points.min(0) - margin) & (middles <= points.max(0) + margin)).all(1)
+            of.near = found if of.near is None else of.near | found
 
 
 def with_middles(body, values):
@@ -55,16 +62,6 @@ def with_middles(body, values):
     return values
 
 
-def near(body, points):
-    """Whether a tetrahedron is in the box about closed nodes and half of its size, or has one of its nodes."""
-    low, high = points.min(0), points.max(0)
-    margin = 0.5 * (high - low).max()
-    middles = body.points[body.tetrahedra].mean(1)
-    inside = ((middles >= low - margin) & (middles <= high + margin)).all(1)
-    pressure = body.contact.get("pressure")
-    return inside if pressure is None else inside | (pressure[body.tetrahedra] > 0).any(1)
-
-
 def touching(body):
     """Numbers of the sides of its surface that are contact surface."""
     if "gap" not in body.contact:
@@ -74,30 +71,32 @@ def touching(body):
 
 @dataclass
 class Look:
-    """From where the contact is seen: azimuth and elevation in degrees, what is shown (two corners of a box),
-    and the bodies that are left out because they are in front."""
-    angles: tuple
-    box: np.ndarray
-    hidden: list
+    """From where bodies are seen: azimuth and elevation of the eye in degrees; which body and nodes of it are
+    in the middle (all: None); and the bodies that are left out because they are in front."""
+    angles: tuple = START
+    body: str = None
+    nodes: np.ndarray = None
+    hidden: tuple = ()
 
 
-def contact_look(run, interfaces):
-    """Of the interface with the largest force; None where there is no contact surface."""
+def look_of(run, interfaces, view):
+    """view: a name, angles, or None. None for `contact` where there is none: the interface with the largest
+    force is seen."""
+    if view != CONTACT:
+        return Look() if view is None else Look(NAMED.get(view, view) if isinstance(view, str) else tuple(view))
     contact = run.contact
-    forces = [contact.force[contact.interface == k].sum() for k in range(len(interfaces))]
-    if not forces or not len(contact.vertex):
+    if not interfaces or not len(contact.vertex):
         return None
-    of = interfaces[int(np.argmax(forces))]
+    of = interfaces[int(np.argmax([contact.force[contact.interface == k].sum() for k in range(len(interfaces))]))]
     body = run.bodies[of["nonmortar"]]
     sides = touching(body)
     if not len(sides):
         return None
-    nodes = surface_of(body).nodes
-    pressure = np.nan_to_num(body.contact["pressure"][nodes[sides]]).sum(1)
+    nodes = surface_of(body).nodes[sides]
+    pressure = np.nan_to_num(body.contact["pressure"][nodes]).sum(1)
     closed = pressure > 0 if (pressure > 0).any() else np.ones(len(sides), bool)
-    seen = body.points[nodes[sides[closed]]]
-    box = np.array([seen.reshape(-1, 3).min(0), seen.reshape(-1, 3).max(0)])
-    return Look(best_angles(body, sides[closed], pressure[closed]), box, [of["mortar"]])
+    return Look(best_angles(body, sides[closed], pressure[closed]), of["nonmortar"], np.unique(nodes[closed]),
+                (of["mortar"],))
 
 
 def best_angles(body, sides, pressure):

@@ -11,11 +11,12 @@ import numpy as np
 
 import contact_surface
 from coding import Block
+from contact_line import keys_of
 from contact_surface import surface_of
 from recovery import von_mises
 from runs import IN_SPACE, areas, extent, natural_scale, top
 
-NUMBERS = 800_000  # of all steps and meshes together, so that the page stays small
+NUMBERS = 1_300_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
 NOISE = 1e-9  # of the largest of a kind of field
 DOTS = 90  # on an inch of a picture
@@ -63,8 +64,7 @@ class Mesh:
         if surface.middles is not None:  # in the order in which sides are met first
             between = turned(surface.middles)[order].ravel()
             ends = np.stack([self.triangles, np.roll(self.triangles, -1, 1)], 2).reshape(-1, 2)
-            _, first = np.unique(np.sort(ends, 1), axis=0, return_index=True)
-            first = np.sort(first)
+            first = np.sort(np.unique(keys_of(np.sort(ends, 1)), return_index=True)[1])
             self.ends, self.middles = ends[first], between[first]
 
     def recovered(self, values):
@@ -177,6 +177,7 @@ def ranges_of(meshes, fields, values):
 def run_data(result, share):
     """What the page knows of the bodies of a run; share: of NUMBERS."""
     kept, last = result.kept, result.at(result.kept[-1][0])
+    contact_surface.attach(last, result.interfaces)
     fields = result.fields(last)
     room = NUMBERS * share
     elements = sum(len(body.tetrahedra) for body in last.bodies.values())
@@ -200,6 +201,7 @@ def run_data(result, share):
     steps, ranges, earlier = [], [], None
     for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
         run = result.at(step)
+        contact_surface.attach(run, result.interfaces)
         for name, mesh in meshes.items():
             mesh.body = run.bodies[name]
         earlier, ends = step_block(meshes, fields, touching, earlier, of_step > MANY)
@@ -228,8 +230,9 @@ def still(result):
 
 
 def views_of(result, run):
-    """Name -> angles of the eye, what is shown and bodies that are left out."""
-    found = {name: {"angles": angles, "hidden": []} for name, angles in contact_surface.NAMED.items()}
-    if look := contact_surface.contact_look(run, result.interfaces):
-        found[contact_surface.CONTACT] = {"angles": look.angles, "hidden": look.hidden, "box": look.box.tolist()}
+    """Name -> angles of the eye, the body whose contact is shown, and bodies that are left out."""
+    found = {}
+    for name in (*contact_surface.NAMED, contact_surface.CONTACT):
+        if look := contact_surface.look_of(run, result.interfaces, name):
+            found[name] = {"angles": look.angles, "hidden": look.hidden, "body": look.body}
     return found

@@ -1,5 +1,6 @@
 // ---- Bodies in space, turned: three.js draws, its OrbitControls has mouse and touch -----------------------
-const START = [-60, 25], FAR_AWAY = 10, NEAR_CONTACT = 1.5;  // the box about the contact, times
+const START = [-60, 25], FAR_AWAY = 10, NEAR_CONTACT = 0.4;  // of the size of the contact, about it
+const LEAST_CONTACT = 0.05;  // of the bodies: so large is a contact at least in a view of it
 const VERTEX = `attribute float value; attribute vec3 at, sides; varying float v; varying vec3 b, s, p;
 #include <clipping_planes_pars_vertex>
 void main() {
@@ -165,14 +166,23 @@ function aspectOf({canvas}) {
   return width / (canvas.clientHeight || 1);
 }
 function seen(group, name) {  // a view by its name
-  const {angles, hidden, box} = group.runs[0].views[name];
+  const {angles, hidden, body} = group.runs[0].views[name];
   now.hidden = new Set(hidden);
   bodyBoxes.forEach(each => { each.checked = !now.hidden.has(each.value); });
   lookFrom(group, angles);
-  if (!box) { fit(group, boxOf(group, now.scale)); return; }
-  const [low, high] = box.map(each => new THREE.Vector3(...each)), around = new THREE.Box3(low, high);
-  const size = Math.max(0.1 * group.size, high.distanceTo(low));
-  fit(group, around.expandByScalar((NEAR_CONTACT - 1) * size / 2));
+  fit(group, body ? boxOfContact(group, body) : boxOf(group, now.scale));
+}
+function boxOfContact({runs, size}, name) {  // about what is closed, if anything is
+  const box = new THREE.Box3();
+  for (const run of runs) {
+    const b = run.bodies.findIndex(body => body.name === name), step = stepOf(run);
+    const pressure = nodalValues(run, step, b, "pressure"), places = placed(run, step, b, now.scale);
+    const closed = pressure.some(p => p > 0);
+    pressure.forEach((p, i) => {
+      if (closed ? p > 0 : p === p) box.expandByPoint(new THREE.Vector3(...places.map(of => of[i])));
+    });
+  }
+  return box.expandByScalar(NEAR_CONTACT * Math.max(LEAST_CONTACT * size, box.max.distanceTo(box.min)));
 }
 function render(panel) {
   const {renderer, scene, canvas, run: {group}} = panel, aspect = aspectOf(panel), ratio = pixelRatio();
