@@ -220,7 +220,10 @@ def plan_of(summary):
 def page(results):
     space = results[0].space
     library = three.program() if space else None
-    data = {"space": space, "runs": [run_data(result, 1 / len(results)) for result in results],
+    runs = [run_data(result, 1 / len(results)) for result in results]
+    # pictures for browsers that cannot turn bodies
+    stills = f'<div id="stills">{"".join(run.pop("still") for run in runs)}</div>\n' if space else ""
+    data = {"space": space, "runs": runs,
             "colours": {"plain": VIRIDIS, "signed": RED_BLUE, "contact": YELLOW_RED},
             "three": three.packed(library) if library else None}
     titles = list(dict.fromkeys(run["title"] for run in data["runs"]))
@@ -241,13 +244,9 @@ def page(results):
             "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
             f"<title>{html.escape(', '.join(titles))}</title>\n<style>{looks}</style>\n</head>\n<body>\n"
             "<noscript>This page draws with JavaScript, which is switched off.</noscript>\n"
-            f"<main id=\"page\"></main>\n{stills(results) if space else ''}<script type=\"application/json\" id=\"data\">{text}</script>\n"
+            f"<main id=\"page\"></main>\n{stills}"
+            f"<script type=\"application/json\" id=\"data\">{text}</script>\n"
             f"<script>{program}</script>\n{licence}</body>\n</html>\n")
-
-
-def stills(results):
-    """Pictures for browsers that cannot turn bodies, one of each run."""
-    return f'<div id="stills">{"".join(map(solids.still, results))}</div>\n'
 
 
 def digest(text):

@@ -175,7 +175,7 @@ def ranges_of(meshes, fields, values):
 
 
 def run_data(result, share):
-    """What the page knows of the bodies of a run; share: of NUMBERS."""
+    """What the page knows of the bodies of a run, and `still`, HTML; share: of NUMBERS."""
     kept, last = result.kept, result.at(result.kept[-1][0])
     contact_surface.attach(last, result.interfaces)
     fields = result.fields(last)
@@ -189,6 +189,7 @@ def run_data(result, share):
     most = max(1, int((room - of_meshes) / of_step))
     if len(kept) > most:
         kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
+    picture = still(result)  # now that the step is read
     bodies, touching = [], {}
     for name, mesh in meshes.items():
         body = last.bodies[name]
@@ -213,7 +214,7 @@ def run_data(result, share):
     return {"keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
             "steps": steps[::-1], "ranges": ranges[::-1], "lines": [],
             "scale": natural_scale(last.bodies.values()), "extent": extent(last.bodies.values()),
-            "views": views_of(result, last), "interior": interior}
+            "views": views_of(result, last), "interior": interior, "still": picture}
 
 
 def still(result):

@@ -10,11 +10,14 @@ import numpy as np
 from support import InSharedFolder, mortier
 from views_support import view
 from surfaces import Buffer, Seen, Surface, camera
+import contact_surface
 import known
 import pictures
 import results
 import runs
 import space
+import surfaces
+import three
 from space_test import CUBES
 
 SOFT = ["body.material={young=100, poisson=0.3}", "time.steps=2", "output.every=1"]
@@ -41,7 +44,7 @@ class SpaceViews(InSharedFolder):
             done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings,
                            cwd=cls.folder)
             assert done.returncode == 0, done.stderr
-        cls.enterClassContext(mock.patch.object(space, "PIXELS", 25))  # coarse images are fast
+        cls.enterClassContext(mock.patch.object(surfaces, "PIXELS", 25))  # coarse images are fast
 
     def see(self, *words, code=0):
         found, shown, errors = view(self.folder, *words)
@@ -106,7 +109,7 @@ class SpaceViews(InSharedFolder):
         norm, colours = pictures.Normalize(0, 10), pictures.matplotlib.colormaps["viridis"]
         run = results.read(self.folder / "cubes")
         body = run.bodies["upper"]
-        seen = space.seen_of(body, camera(*space.LOOK), 0.0, body.von_mises, norm, colours, 0)
+        seen = space.seen_of(body, camera(*contact_surface.START), 0.0, body.von_mises, norm, colours, 0)
         np.testing.assert_allclose(seen.colours(np.array([0]), np.full((1, 3), 1 / 3))[0], colours(1.0)[:3],
                                    atol=0.01)
         by_corner = body.points[body.tetrahedra][..., 2] * 10  # a field that is z
@@ -127,7 +130,7 @@ class SpaceViews(InSharedFolder):
 
     def test_the_map_of_the_pressure_has_all_of_the_surface(self):
         result = runs.Result(self.folder / "cubes")
-        of = space.Map(pictures.view(result), 0)
+        of = space.contact_map.Map(pictures.view(result), 0)
         a, b, c = np.moveaxis(of.body.points[of.surface.nodes[of.chosen]], 1, 0)
         self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, 1, delta=1e-12)
         np.testing.assert_allclose(of.turned[:2], [[1, 0, 0], [0, 1, 0]], atol=1e-12)
@@ -142,7 +145,7 @@ class SpaceViews(InSharedFolder):
             pictures.plt.close(figure)
 
     def test_options_of_the_plane_are_refused(self):
-        self.assertIn("--window", self.see("plot", "cubes", "--window=0,1,0,1", code=2))
+        self.assertIn("--window", self.see("plot", "cubes", "--window=1,0,0,1", code=2))
         self.assertIn("s23", self.see("plot", "cubes", "--field", "s21", code=2))
         self.assertIn("--view", self.see("plot", "cubes", "--view=1000,2", code=2))
         plane = mortier("run", known.ROOT / "scenes/compression.toml", "--quiet", "--out", "plane", "--set",
@@ -172,13 +175,19 @@ class SpaceViews(InSharedFolder):
         self.assertIn("upper, tetrahedron 3 at (", result.stuck(result.at(2))[2])
         self.see("plot", "cubes.failed", "--only", "fields", "--out", "failed.png")
 
-    def test_report_is_a_page_without_a_program(self):
-        self.see("report", "cubes", "alone", "--out", "page.html")
+    def test_the_page_has_a_picture_and_says_where_three_js_is_missing(self):
+        told = self.see("report", "cubes", "alone", "--out", "page.html")
+        self.assertNotIn("libjs-three", told)
         page = (self.folder / "page.html").read_text()
-        self.assertNotIn("<script", page)
-        for words in ("bodies in space", "tetrahedra", "displacement z", "Contact surfaces", "pressed"):
+        for words in ("bodies in space", "tetrahedra", "displacement z", "Contact surfaces", "pressed",
+                      "Permission is hereby granted"):
             self.assertIn(words, page)
-        self.assertEqual(page.count('src="data:image/png'), 3 + 1 + 2)
+        self.assertEqual(page.count('src="data:image/png'), 2)
+        with mock.patch.object(three, "FOLDER", self.folder / "nowhere"):
+            told = self.see("report", "cubes", "--out", "still.html")
+        self.assertIn("libjs-three is not installed", told)
+        self.assertEqual(len(told.splitlines()), 1)
+        self.assertNotIn("Permission is hereby granted", (self.folder / "still.html").read_text())
 
     def test_compare_with_a_result_on_the_same_and_on_other_meshes(self):
         settings = [f"--set={each}" for each in SOFT]

@@ -131,8 +131,9 @@ function everything(group) {
     const box = boxOf(group, 0), size = box.getSize(new THREE.Vector3());
     group.size = Math.max(size.x, size.y, size.z);
     group.middle = box.getCenter(new THREE.Vector3());
-    lookFrom(group, START);
   }
+  show([]);
+  lookFrom(group, START);
   fit(group, boxOf(group, now.scale));
   return group;
 }
@@ -167,10 +168,13 @@ function aspectOf({canvas}) {
 }
 function seen(group, name) {  // a view by its name
   const {angles, hidden, body} = group.runs[0].views[name];
-  now.hidden = new Set(hidden);
-  bodyBoxes.forEach(each => { each.checked = !now.hidden.has(each.value); });
+  show(hidden);
   lookFrom(group, angles);
   fit(group, body ? boxOfContact(group, body) : boxOf(group, now.scale));
+}
+function show(hidden) {  // all bodies but these
+  now.hidden = new Set(hidden);
+  bodyBoxes.forEach(each => { each.checked = !now.hidden.has(each.value); });
 }
 function boxOfContact({runs, size}, name) {  // about what is closed, if anything is
   const box = new THREE.Box3();
