@@ -1,4 +1,4 @@
-"""Contact surfaces of bodies in space: nodal values on them, what is near them; from where bodies are seen."""
+"""Contact surfaces of bodies in space: nodal values, what is near them; from where bodies are seen."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,9 +24,9 @@ def surface_of(body):
 
 def attach(run, interfaces):
     """Gives bodies `contact`, pressure and gap by node (not a number where there is none; of a node on two
-    nonmortar sides the larger pressure and the smaller gap; in the middle of a side the mean of its ends), and
-    `near`, whether a tetrahedron is near closed contact, no farther than that is large; None where nothing is
-    closed."""
+    nonmortar sides the larger pressure and the smaller gap; in the middle of a side the mean of its ends),
+    and `near`, whether a tetrahedron is near closed contact, no farther than that is large; None where
+    nothing is closed."""
     contact = run.contact
     nonmortar = {each["nonmortar"] for each in interfaces}
     for name, body in run.bodies.items():
@@ -45,7 +45,8 @@ def attach(run, interfaces):
         if not len(points) or points.shape[1] != 3:
             continue
         beside = np.isin(body.tetrahedra, contact.vertex[closed]).any(1)
-        margin = np.ptp(points, axis=0).max() + np.ptp(body.points[body.tetrahedra[beside]], axis=1).max(1).mean()
+        elements = np.ptp(body.points[body.tetrahedra[beside]], axis=1)
+        margin = np.ptp(points, axis=0).max() + elements.max(1).mean()
         for of in (body, run.bodies[each["mortar"]]):
             middles = of.points[of.tetrahedra].mean(1)
             found = ((middles >= points.min(0) - margin) & (middles <= points.max(0) + margin)).all(1)
@@ -83,11 +84,12 @@ def look_of(run, interfaces, view):
     """view: a name, angles, or None. None for `contact` where there is none: the interface with the largest
     force is seen."""
     if view != CONTACT:
-        return Look() if view is None else Look(NAMED.get(view, view) if isinstance(view, str) else tuple(view))
+        return Look(START if view is None else NAMED[view] if isinstance(view, str) else tuple(view))
     contact = run.contact
     if not interfaces or not len(contact.vertex):
         return None
-    of = interfaces[int(np.argmax([contact.force[contact.interface == k].sum() for k in range(len(interfaces))]))]
+    forces = [contact.force[contact.interface == k].sum() for k in range(len(interfaces))]
+    of = interfaces[int(np.argmax(forces))]
     body = run.bodies[of["nonmortar"]]
     sides = touching(body)
     if not len(sides):

@@ -7,7 +7,7 @@ from runs import areas
 
 class Means:
     """Values of triangles as values of their vertices, one for each region there: the mean over the triangles
-    at a vertex, weighted by area (in space: tetrahedra, volume). `places`: of the corners of triangles, n x 3."""
+    at a vertex, weighted by area (in space: tetrahedra, volume). `places`: of the corners, n x 3."""
 
     def __init__(self, body):
         regions = np.unique(body.cells.get("region", np.zeros(len(body.simplices))), return_inverse=True)[1]

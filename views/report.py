@@ -26,7 +26,8 @@ from runs import extent, natural_scale, top_of
 
 PAGE = Path(__file__).resolve().parent / "page"
 # one after the other, one function
-PROGRAM = ("data.js", "values.js", "colours.js", "bodies.js", "charts.js", "controls.js", "pointer.js", "page.js")
+PROGRAM = ("data.js", "values.js", "colours.js", "bodies.js", "charts.js", "controls.js", "pointer.js",
+           "page.js")
 IN_SPACE = ("data.js", "solids.js", "colours.js", "charts.js", "controls.js", "turning.js", "cutting.js",
             "page.js")
 # of all kept steps together: beyond that steps are left out, so that the page stays small

@@ -1,8 +1,9 @@
-"""What a page of mortier report has of runs in space: surfaces and, to be cut, tetrahedra; nodal values on them,
+"""What a page of mortier report has of runs in space: surfaces and, to be cut, tetrahedra; nodal values,
 recovered where they are of tetrahedra. views/page/solids.js reads them back.
 
-Vertices of the page are nodes of elements' corners, one for each region that meets there, in an order in which
-neighbours are close. Middles of quadratic sides follow; of them the page has what the mean of both ends misses.
+Vertices of the page are nodes at corners of elements, one for each region that meets there, in an order in
+which neighbours are close. Middles of quadratic sides follow; of them the page has what the mean of both ends
+misses.
 """
 import base64
 import html
@@ -164,7 +165,7 @@ def ranges_of(meshes, fields, values):
         if name == "region":
             each = np.concatenate([mesh.region for mesh in meshes.values()])
         elif name == "u":
-            each = np.concatenate([np.sqrt(of["ux"]**2 + of["uy"]**2 + of["uz"]**2) for of in values.values()])
+            each = np.concatenate([np.sqrt(sum(of[f"u{c}"]**2 for c in "xyz")) for of in values.values()])
         elif name == "von_mises":
             each = np.concatenate([von_mises(*(of[f"s{c}"] for c in IN_SPACE)) for of in values.values()])
         else:

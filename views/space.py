@@ -188,7 +188,8 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
     columns = [views if alike else [each] for each in views]
     windows = [window or window_of(of, scale, look) for of in columns]
     pictures.require_drawable(views, scale, windows[0])
-    maps = [[contact_map.Map(each, k) for k in contact_map.interfaces_of(each)[:2]] if panels else [] for each in views]
+    maps = [[contact_map.Map(each, k) for k in contact_map.interfaces_of(each)[:2]] if panels else []
+            for each in views]
     rows = max(map(len, maps))
     aspect = (windows[0][3] - windows[0][2]) / (windows[0][1] - windows[0][0])
     width = 4.6 if len(views) > 1 else min(5.8, max(4.2, 5.0 / aspect))
@@ -197,7 +198,8 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
                         layout="constrained")
     grid = figure.add_gridspec(1 + rows, len(views), height_ratios=heights)
     whole, below = [], []
-    pressures = contact_map.norm_of([each.pressure for of in maps for each in of], signed=False) if rows else None
+    nodal = [each.pressure for of in maps for each in of]
+    pressures = contact_map.norm_of(nodal, signed=False) if rows else None
     for i, (each, value) in enumerate(zip(views, values)):
         axes = figure.add_subplot(grid[0, i])
         whole.append(axes)

@@ -1,5 +1,5 @@
-"""The page of mortier report for bodies in space, in headless Chromium: it turns, cuts and says values, on a desk
-and on a phone; pictures take the place of bodies where there is no WebGL or no three.js."""
+"""The page of mortier report for bodies in space, in headless Chromium: it turns, cuts and says values, on a
+desk and on a phone; pictures take the place of bodies where there is no WebGL or no three.js."""
 import io
 import json
 import time
@@ -51,7 +51,8 @@ class Pages(InSharedFolder):
         super().setUpClass()
         for name, text, settings in (("cubes", TILTED, SOFT), ("quadratic", TILTED, [*SOFT, "degree=2"])):
             (cls.folder / f"{name}.toml").write_text(text)
-            done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings, cwd=cls.folder)
+            done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings,
+                           cwd=cls.folder)
             assert done.returncode == 0, done.stderr
             assert view(cls.folder, "report", name)[0] == 0
         cls.browser = Browser(*DESK)
@@ -99,7 +100,8 @@ class Pages(InSharedFolder):
 
     def drag(self, first, last):
         """With the left button, in one step."""
-        moves = [{"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)} for x, y in (first, last)]
+        moves = [{"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)}
+                 for x, y in (first, last)]
         self.browser.send("POST", "/actions", {"actions": [
             {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
              "actions": [moves[0], {"type": "pointerDown", "button": 0}, moves[1],
@@ -110,7 +112,8 @@ class Pages(InSharedFolder):
         """Fingers, each from its first place to its last."""
         def at(places):
             return [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)]
-        self.browser.cdp("Input.dispatchTouchEvent", type="touchStart", touchPoints=at(path[0] for path in paths))
+        self.browser.cdp("Input.dispatchTouchEvent", type="touchStart",
+                         touchPoints=at(path[0] for path in paths))
         for part in (0.5, 1.0):
             moved = [tuple(a + part * (b - a) for a, b in zip(*path)) for path in paths]
             self.browser.cdp("Input.dispatchTouchEvent", type="touchMove", touchPoints=at(moved))
@@ -136,7 +139,8 @@ class Pages(InSharedFolder):
                                 "document.getElementById('canvas0').clientWidth]")
         self.assertGreater(wide[1], 0.95 * wide[0])
         self.assertGreater(self.reddish(), 0.02)
-        self.assertIn("contact pressure", self.browser.run("return document.querySelector('.bar').textContent"))
+        self.assertIn("contact pressure",
+                      self.browser.run("return document.querySelector('.bar').textContent"))
         for other in ("gap", "von_mises", "uz", "s23", "e11", "error", "viscoplastic", "region"):
             choose(self.browser, "field", other)
             self.assertGreater(self.picture().std(), 10, other)
@@ -149,7 +153,7 @@ class Pages(InSharedFolder):
         self.assertLess(turned[0], start[0] - 5)
         self.assertGreater(turned[1], start[1] + 5)
         self.assertGreater(np.mean(np.abs(self.picture() - first) > 20), 0.02)
-        for key, moved in (("\ue012", (-10, 0)), ("\ue014", (10, 0)), ("\ue013", (0, 10)), ("\ue015", (0, -10))):
+        for key, moved in zip("\ue012\ue014\ue013\ue015", ((-10, 0), (10, 0), (0, 10), (0, -10))):
             before = self.browser.run(SEEN)
             self.browser.press("#canvas0", key)
             settled(self.browser)
@@ -168,7 +172,8 @@ class Pages(InSharedFolder):
         self.assertGreater(self.browser.run(SEEN)[2], 0.1)
 
     def test_views_have_names(self):
-        for name, angles, key in (("front", (-90, 0), "1"), ("top", (-90, 90), "2"), ("contact", (-90, -90), "3")):
+        for name, angles, key in (("front", (-90, 0), "1"), ("top", (-90, 90), "2"),
+                                  ("contact", (-90, -90), "3")):
             for press in (lambda: self.press(f"view-{name}"), lambda: self.browser.press("#canvas0", key)):
                 self.press("whole")
                 self.drag(self.at(0.5, 0.5), self.at(0.45, 0.55))
@@ -177,7 +182,8 @@ class Pages(InSharedFolder):
                 seen = self.browser.run(SEEN)
                 np.testing.assert_allclose(seen[:2], angles, atol=0.01, err_msg=name)
         self.assertGreater(self.reddish(), 0.05)
-        hidden = "return [...document.querySelectorAll('[id^=body]')].filter(e => !e.checked).map(e => e.value)"
+        hidden = ("return [...document.querySelectorAll('[id^=body]')].filter(e => !e.checked)"
+                  ".map(e => e.value)")
         self.assertEqual(self.browser.run(hidden), ["lower"])
         self.press("view-front")
         self.assertEqual(self.browser.run(hidden), [])
@@ -199,9 +205,10 @@ class Pages(InSharedFolder):
         run = results.read_mortier(self.folder / "cubes")
         told, words = self.read(0.5, 0.55)
         self.assertEqual(told["body"], "upper")
-        self.assertRegex(words, r"^contact pressure \S+ Pa in upper at \(.*\) as meshed: gap .*von Mises stress")
-        nodes, x = run.contact.position, float(told["x"])
-        at_x = np.interp(x, *zip(*sorted({round(p[0], 6): q for p, q in zip(nodes, run.contact.pressure)}.items())))
+        self.assertRegex(words, r"^contact pressure \S+ Pa in upper at \(.*\) as meshed: gap .*von Mises")
+        along = {round(x, 6): pressure for (x, _, _), pressure in zip(run.contact.position,
+                                                                      run.contact.pressure)}
+        at_x = np.interp(float(told["x"]), *zip(*sorted(along.items())))
         self.assertAlmostEqual(float(told["value"]), at_x, delta=0.2 * run.contact.pressure.max())
         self.assertAlmostEqual(float(told["z"]), 0, delta=1e-6)
         told, words = self.read(0.02, 0.02)

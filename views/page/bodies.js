@@ -1,4 +1,4 @@
-// ---- Bodies in the plane: triangles are painted pixel by pixel, and each pixel knows its triangle ----------------------
+// ---- Bodies in the plane: triangles are painted pixel by pixel, and each pixel knows its triangle ---------
 function everything({runs}) {
   let box = [Infinity, -Infinity, Infinity, -Infinity];
   for (const run of runs) run.bodies.forEach((body, b) => {

@@ -114,6 +114,7 @@ const panels = runs.map((run, r) => {
         most = $("p", {class: "most", id: `most${r}`});
   grid.append(
       $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), `${run.name} `, time),
-        $("div", {class: data.space ? "picture space" : "picture"}, canvas), $("div", {class: "bar"}, legend, bar, scale), most, read));
+        $("div", {class: data.space ? "picture space" : "picture"}, canvas),
+        $("div", {class: "bar"}, legend, bar, scale), most, read));
   return {run, r, canvas, read, bar, legend, scale, most, time};
 });

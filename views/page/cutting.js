@@ -75,7 +75,8 @@ const scenic = (group, values, c) => {
 };
 function fill(attribute, nodes, parts) {  // one number, or three, of every corner
   const {array} = attribute, size = parts.length;
-  for (let i = 0; i < nodes.length; i++) for (let c = 0; c < size; c++) array[size * i + c] = parts[c][nodes[i]];
+  for (let i = 0; i < nodes.length; i++)
+    for (let c = 0; c < size; c++) array[size * i + c] = parts[c][nodes[i]];
   attribute.needsUpdate = true;
 }
 function setLines(lines, {drawn, sharp}, [x, y, z]) {  // edges of the surface
@@ -131,7 +132,7 @@ function setSection(each, cut, wanted) {
   each.cut.geometry.dispose();
   each.cut.geometry = new THREE.BufferGeometry();
   Object.entries({position: [at, 3], value: [value, 1], at: [corner, 3],
-                  sides: [Uint8Array.from({length: 3 * n}, (_, i) => found.sides[3 * (i / 9 | 0) + i % 3]), 3]})
+                  sides: [Uint8Array.from(found.sides), 3]})
       .forEach(([name, of]) => each.cut.geometry.setAttribute(name, new THREE.BufferAttribute(...of)));
   each.cut.geometry.computeBoundingSphere();
 }
@@ -169,7 +170,8 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
     return;
   }
   const {each: {body, b}, nodes, weights} = found, step = stepOf(run);
-  const at = of => nodes.reduce((sum, [p, q, part], i) => sum + weights[i] * (of[p] + part * (of[q] - of[p])), 0);
+  const at = of => nodes.reduce(
+      (sum, [p, q, part], i) => sum + weights[i] * (of[p] + part * (of[q] - of[p])), 0);
   const valueAt = name => at(nodalValues(run, step, b, name));
   const say = name => {
     const value = valueAt(name), field = fieldOf(run, name);
@@ -183,9 +185,10 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
   Object.assign(read.dataset, {body: body.name, value, x: place[0], y: place[1], z: place[2]});
 }
 function tellExtremes(panel, range) {
-  const {run} = panel, field = fieldOf(run, now.field), [most, least] = extremesOf(run, stepOf(run), now.field);
-  const words = (which, {value, body, node}) => `${which} ${of(short(value, 4), field.unit)} in ${body.name} at (${
-      body.points.map(each => short(each[node], 4)).join(", ")})`;
+  const {run} = panel, field = fieldOf(run, now.field);
+  const [most, least] = extremesOf(run, stepOf(run), now.field);
+  const words = (which, {value, body, node}) => `${which} ${of(short(value, 4), field.unit)} in ${
+      body.name} at (${body.points.map(each => short(each[node], 4)).join(", ")})`;
   const told = most && !["viscoplastic", "region"].includes(field.name) &&
       most.value - least.value > 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value));
   const where = run.interior || field.contact ? "" : " (on the surface)";

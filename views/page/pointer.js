@@ -1,4 +1,4 @@
-// ---- Mouse, touch and keys on bodies in the plane ------------------------------------------------------------
+// ---- Mouse, touch and keys on bodies in the plane ---------------------------------------------------------
 function startDrawing() {
   for (const panel of panels) panel.context = panel.canvas.getContext("2d");
 }

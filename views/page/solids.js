@@ -25,7 +25,8 @@ async function loadMesh(body) {
 function sidesOf(corners, n, m) {  // of middles both ends; of triangles the middles, in the order of sides
   const ends = new Int32Array(2 * m), middleOf = new Int32Array(m ? corners.length : 0), met = new Map();
   for (let i = 0; i < middleOf.length; i++) {
-    const p = corners[i], q = corners[i % 3 === 2 ? i - 2 : i + 1], side = Math.min(p, q) * n + Math.max(p, q);
+    const p = corners[i], q = corners[i % 3 === 2 ? i - 2 : i + 1];
+    const side = Math.min(p, q) * n + Math.max(p, q);
     let number = met.get(side);
     if (number === undefined) {
       met.set(side, number = met.size);
@@ -70,7 +71,8 @@ function nodalValues(run, step, b, name) {  // by vertex and middle; not a numbe
       const [x, y, z] = ["ux", "uy", "uz"].map(each => nodalValues(run, step, b, each));
       return x.map((each, i) => Math.hypot(each, y[i], z[i]));
     }
-    if (name === "von_mises") return withMiddles(body, vonMisesOf(COMPONENTS.map(c => real(fields[`s${c}`]))));
+    if (name === "von_mises")
+      return withMiddles(body, vonMisesOf(COMPONENTS.map(c => real(fields[`s${c}`]))));
     if (!fieldOf(run, name).contact) return withMiddles(body, real(fields[name]));
     const values = new Float64Array(body.vertices).fill(NaN), given = real(fields[name]);
     body.contactNodes.forEach((v, i) => { values[v] = given[i]; });
@@ -91,7 +93,7 @@ function placed(run, step, b, scale) {  // x, y, z of vertices and middles
     return body.points[c].map((x, i) => x + scale * moved[i]);
   });
 }
-function extremesOf(run, step, name) {  // the largest value of the bodies, and the smallest: value, body, node
+function extremesOf(run, step, name) {  // the largest value, and the smallest: value, body, node
   const found = [null, null];
   run.bodies.forEach((body, b) => nodalValues(run, step, b, name).forEach((value, node) => {
     if (!(value <= found[0]?.value) && value === value) found[0] = {value, body, node};
@@ -101,12 +103,13 @@ function extremesOf(run, step, name) {  // the largest value of the bodies, and 
 }
 
 // ---- The plane that cuts ----------------------------------------------------------------------------------
-// Where a plane n x = d meets tetrahedra: of each corner of its triangles two nodes and the part of the second,
-// and which sides of it are drawn.
+// Where a plane n x = d meets tetrahedra: of each corner of its triangles two nodes and the part of the
+// second, and which sides of the triangle are drawn.
 function section(body, [x, y, z], normal, d) {
   const {cells} = body, from = [], to = [], part = [], sides = [];
   const height = new Float64Array(body.vertices);
-  for (let v = 0; v < body.vertices; v++) height[v] = normal[0] * x[v] + normal[1] * y[v] + normal[2] * z[v] - d;
+  for (let v = 0; v < body.vertices; v++)
+    height[v] = normal[0] * x[v] + normal[1] * y[v] + normal[2] * z[v] - d;
   for (let t = 0; t < cells.length; t += 4) {
     const below = [], above = [];
     for (let c = t; c < t + 4; c++) (height[cells[c]] < 0 ? below : above).push(cells[c]);

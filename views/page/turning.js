@@ -11,7 +11,7 @@ void main() {
   #include <clipping_planes_vertex>
 }`;
 const FRAGMENT = `precision highp float;
-uniform sampler2D colours; uniform float low, high, ratio, mesh; uniform vec3 plain; uniform bool coloured, glass;
+uniform sampler2D colours; uniform float low, high, ratio, mesh; uniform vec3 plain; uniform bool glass;
 varying float v; varying vec3 b, s, p;
 #include <clipping_planes_pars_fragment>
 void main() {
@@ -20,7 +20,7 @@ void main() {
   n *= n.z < 0.0 ? -1.0 : 1.0;
   float light = 0.78 + 0.22 * clamp(dot(n, vec3(-0.36, 0.55, 0.75)), 0.0, 1.0);
   float shade = (clamp((v - low) / (high - low), 0.0, 1.0) * 1023.0 + 0.5) / 1024.0;
-  vec3 c = light * (coloured ? texture2D(colours, vec2(shade, 0.5)).rgb : plain);
+  vec3 c = light * texture2D(colours, vec2(shade, 0.5)).rgb;
   vec3 tall = 1.0 / max(sqrt(dFdx(b) * dFdx(b) + dFdy(b) * dFdy(b)), vec3(1e-9));  // heights in pixels
   vec3 near = clamp(0.5 * ratio + 0.5 - b * tall, 0.0, 1.0);
   vec3 weak = 0.45 * clamp((tall / ratio - 3.0) / 9.0, 0.0, 1.0) * mesh;  // small elements are not dark
@@ -82,7 +82,8 @@ function startBodies(panel) {  // when their meshes are there
   panel.bodies = run.bodies.map((body, b) => {
     const count = body.drawn.length, geometry = new THREE.BufferGeometry(), at = new Uint8Array(3 * count);
     for (let i = 0; i < count; i++) at[3 * i + i % 3] = 1;
-    const attribute = (name, array, size) => geometry.setAttribute(name, new THREE.BufferAttribute(array, size));
+    const attribute = (name, array, size) =>
+        geometry.setAttribute(name, new THREE.BufferAttribute(array, size));
     attribute("position", new Float32Array(3 * count), 3);
     attribute("value", new Float32Array(count), 1);
     attribute("at", at, 3);
@@ -90,7 +91,8 @@ function startBodies(panel) {  // when their meshes are there
     geometry.addGroup(0, body.contactFrom, 0);
     geometry.addGroup(body.contactFrom, count - body.contactFrom, 1);
     const kinds = [material(run.group, b), material(run.group, b)];
-    const solid = new THREE.Mesh(geometry, kinds), cut = new THREE.Mesh(new THREE.BufferGeometry(), kinds[0].clone());
+    const solid = new THREE.Mesh(geometry, kinds);
+    const cut = new THREE.Mesh(new THREE.BufferGeometry(), kinds[0].clone());
     const lines = [false, true].map(dashed => new THREE.LineSegments(
         new THREE.BufferGeometry(),
         dashed ? new THREE.LineDashedMaterial({color: 0x8a8a92, dashSize: 0.015, gapSize: 0.012})
@@ -106,7 +108,7 @@ function material(group, b) {
     vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, clipping: true,
     extensions: {derivatives: true}, uniforms: {
       colours: {value: group.shades}, low: {value: 0}, high: {value: 1}, ratio: {value: 1}, mesh: {value: 1},
-      plain: {value: new THREE.Vector3(grey, grey, grey)}, coloured: {value: true}, glass: {value: false}
+      plain: {value: new THREE.Vector3(grey, grey, grey)}, glass: {value: false}
     }
   });
 }
@@ -207,6 +209,7 @@ function drawAxes({axes, run: {group}}) {
   axes.replaceChildren(...["x", "y", "z"].flatMap((name, c) => {
     const [x, y] = [26 * e[4 * c], -26 * e[4 * c + 1]];
     return [svg("path", {class: "axis", d: `M0 0L${x.toFixed(1)} ${y.toFixed(1)}`}),
-            svg("text", {x: (1.35 * x).toFixed(1), y: (1.35 * y + 4).toFixed(1), "text-anchor": "middle"}, name)];
+            svg("text", {x: (1.35 * x).toFixed(1), y: (1.35 * y + 4).toFixed(1), "text-anchor": "middle"},
+                name)];
   }));
 }
