@@ -10,6 +10,7 @@ import html
 import json
 import os
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -190,7 +191,7 @@ def words_of(result):
     summary = result.summary
     scene, settings = summary.get("scene_text"), summary.get("settings")
     return {"quantities": tables.quantities(result), "tables": tables.pairs(result),
-            "grids": tables.grids(result), "plan": plan_of(summary),
+            "grids": tables.grids(result),
             "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
             "settings": [shown(each, 500) for each in settings] if isinstance(settings, list) else [],
             "path": shown(summary.get("scene", ""), 500)}
@@ -221,7 +222,10 @@ def plan_of(summary):
 def page(results):
     space = results[0].space
     library = three.program() if space else None
-    runs = [run_data(result, 1 / len(results)) for result in results]
+    with ThreadPoolExecutor() as pool:  # geometries are meshed for the plans, which takes its time
+        plans = [pool.submit(plan_of, result.summary) for result in results]
+        runs = [run_data(result, 1 / len(results)) for result in results]
+        runs = [{**run, "plan": plan.result()} for run, plan in zip(runs, plans)]
     # pictures for browsers that cannot turn bodies
     stills = f'<div id="stills">{"".join(run.pop("still") for run in runs)}</div>\n' if space else ""
     data = {"space": space, "runs": runs,

@@ -17,7 +17,7 @@ from contact_surface import surface_of
 from recovery import von_mises
 from runs import IN_SPACE, areas, extent, natural_scale, top
 
-NUMBERS = 1_300_000  # of all steps and meshes together, so that the page stays small
+NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
 NOISE = 1e-9  # of the largest of a kind of field
 DOTS = 90  # on an inch of a picture
@@ -83,7 +83,7 @@ class Mesh:
     def block(self):
         block = Block()
         for c in range(3):
-            block.add(self.at_nodes(self.body.points[:, c]), 6)
+            block.add(self.at_nodes(self.body.points[:, c]), 5)
         size = np.ptp(self.body.points, axis=0).max()
         for c in range(3):
             missed = self.missed(self.body.points[:, c])

@@ -23,7 +23,8 @@ async function unpack(text) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
-function arrays(bytes, forms, lengths, later, predict) {  // [{e, q}] of a block
+// [{e, q}] of a block; predict: of what is predicted by the caller, else by 0
+function arrays(bytes, forms, lengths, later, predict = (found, k) => new Float64Array(lengths[k])) {
   const found = [];
   let at = 0;
   forms.forEach(([e, how, weights], k) => {
