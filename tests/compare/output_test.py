@@ -31,7 +31,8 @@ class Output(support.InSharedFolder):
             self.assertEqual(mesh.points.dtype, np.float64)
             np.testing.assert_array_equal(mesh.points[:, :2], medit.points[:, :2])
             np.testing.assert_array_equal(mesh.cells_dict["triangle"], medit.cells_dict["triangle"])
-            nonmortar = json.loads((self.run_folder / "summary.json").read_text())["interfaces"][0]["nonmortar"]
+            summary = json.loads((self.run_folder / "summary.json").read_text())
+            nonmortar = summary["interfaces"][0]["nonmortar"]
             self.assertEqual(set(mesh.point_data), {"displacement", *(["contact_pressure", "gap"]
                                                                       if name == nonmortar else [])})
             self.assertEqual(set(mesh.cell_data),
