@@ -8,7 +8,7 @@ import surfaces
 from columns import ROUNDING, labelled
 from contact_surface import CURVED, START, surface_of
 from pictures import COLOURS, INK, PRESSURES, SIGNED_COLOURS, bodies_of, plt
-from runs import extent
+from runs import extent, top_of_contact
 from surfaces import Buffer, Seen, Surface, camera, painted, show
 
 ALONG_AN_AXIS = 0.999  # cosine
@@ -29,7 +29,11 @@ def norm_of(values, signed, smallest=0.0):
         high = smallest or 1.0
         low = -high if both else 0.0
     name = SIGNED_COLOURS if both else COLOURS if signed else PRESSURES
-    return Normalize(low, high), plt.get_cmap(name)
+    norm = Normalize(low, high)
+    if not signed and 0 < (top := top_of_contact(values)) < 0.7 * high:
+        norm = Normalize(low, top)
+        norm.extend = "max"  # colour bars say so
+    return norm, plt.get_cmap(name)
 
 
 class Map:

@@ -201,6 +201,11 @@ class Pages(InSharedFolder):
                     exact, largest = self.values_in_file(name, of, told)
                     self.assertAlmostEqual(float(told["value"]), exact,
                                            delta=(1e-4 if name == "cubes" else 0.02) * largest)
+            self.press("view-front")  # places are those under the pointer; two lengths are the bodies
+            (left, _), (right, _) = self.read(0.45, 0.3), self.read(0.55, 0.3)
+            _, _, wide, tall = self.area()
+            apart = 0.1 * wide / (tall / 2) / self.browser.run(SEEN)[2] * 2
+            self.assertAlmostEqual(float(right["x"]) - float(left["x"]), apart, delta=0.05 * apart)
         self.open("cubes")
         run = results.read_mortier(self.folder / "cubes")
         told, words = self.read(0.5, 0.55)
