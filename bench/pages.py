@@ -32,6 +32,14 @@ def membrane(mortier, folder):
     assert done.returncode == 0, done.stderr
 
 
+def solid(mortier, folder):
+    """1e5 unknowns in space, one step."""
+    from space_page_test import MANY
+    (folder / "solid.toml").write_text(MANY)
+    done = mortier("run", "solid.toml", "--quiet", "--out", "solid", cwd=folder)
+    assert done.returncode == 0, done.stderr
+
+
 def opened(browser, path):
     """Milliseconds until the page can be used, and processor time of its thread."""
     milliseconds = browser.open(path)
@@ -54,8 +62,9 @@ def main():
         folder = Path(folder)
         note(solve, folder)
         membrane(mortier, folder)
+        solid(mortier, folder)
         print(f"{'page':10}{'MB':>8}{'first':>8}{'usable':>8}{'median':>8}{'processor':>11}{'messages':>10}")
-        for name in ("note", "membrane"):
+        for name in ("note", "membrane", "solid"):
             code, _, errors = view(folder, "report", name, "--out", f"{name}.html")
             if code:
                 sys.exit(errors)

@@ -16,6 +16,7 @@ packages=(
   dpkg-dev file                                            # packaging
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
+  libjs-three                                              # pages of results in space
   pybind11-dev python3-dev mypy                            # the Python module
 )
 

@@ -14,6 +14,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "compare")]
 from ending import Wrong, code_of, complain, require, shown  # noqa: E402
 
 PICTURES = ("fields", "contact", "history")
+VIEWS = ("front", "top", "contact")
 
 
 def numbers(count):
@@ -29,6 +30,20 @@ def numbers(count):
     return read
 
 
+def a_view(text):
+    """front, top, contact, or azimuth and elevation of the eye in degrees."""
+    if text in VIEWS:
+        return text
+    words = f"{text}: expected {', '.join(VIEWS)} or AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90"
+    try:
+        angles = numbers(2)(text)
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(words) from error
+    if not (abs(angles[0]) <= 360 and abs(angles[1]) <= 90):
+        raise argparse.ArgumentTypeError(words)
+    return angles
+
+
 class Parser(argparse.ArgumentParser):
     def error(self, message):
         raise Wrong(f"{message} (see mortier --help)")
@@ -42,7 +57,7 @@ def arguments(words):
     plot.add_argument("--field", default="von_mises")
     plot.add_argument("--scale", type=numbers(1))
     plot.add_argument("--window", type=numbers(4))
-    plot.add_argument("--view", type=numbers(2))
+    plot.add_argument("--view", type=a_view)
     plot.add_argument("--only", choices=PICTURES)
     plot.add_argument("--animate", action="store_true")
     plot.add_argument("--raw", action="store_true")
@@ -62,6 +77,7 @@ def arguments(words):
 
 def plot(given):
     require("numpy", "matplotlib", "meshio")
+    import contact_surface
     import curves
     import files
     import images
@@ -73,12 +89,8 @@ def plot(given):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
     space = in_space(results, given)
-    if given.window and space:
-        raise Wrong("--window: for results in the plane only, expected --view AZIMUTH,ELEVATION")
     if given.view and not space:
         raise Wrong("--view: for results in space only")
-    if given.view and not (abs(given.view[0]) <= 360 and abs(given.view[1]) <= 90):
-        raise Wrong("--view: expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90")
     views = [pictures.view(result, given.step) for result in results]
     known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
     if given.field != "none" and given.field not in known:
@@ -89,6 +101,9 @@ def plot(given):
     if given.animate and max(len(result.kept) for result in results) < 2:
         raise Wrong(f"{given.results[0]}: --animate: one step was kept only (mortier run --set "
                     "output.every=1 keeps all)")
+    look = contact_surface.look_of(views[0].run, results[0].interfaces, given.view) if space else None
+    if space and look is None:
+        raise Wrong(f"{given.results[0]}: --view contact: no contact in this run")
     folder = given.out or files.beside(given.results, ".plots")
     single = folder.suffix[1:] if folder.suffix in (".png", ".svg", ".gif") else None
     if single == "gif" and not given.animate:
@@ -102,12 +117,12 @@ def plot(given):
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
             made[folder if single else folder / "animation.gif"] = images.animation(
-                results, given.field, scale, given.window, given.raw, given.view)
+                results, given.field, scale, given.window, given.raw, look)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
             figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
-                                                        raw=given.raw, look=given.view),
+                                                        raw=given.raw, look=look),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
             if figure is None:
@@ -133,26 +148,27 @@ def in_space(results, given):
     return True in kinds
 
 
-def report(given):
+def make_report(given):
     require("numpy", "meshio")
     import files
+    import report
     import runs
 
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
         raise Wrong(f"--out {out}: expected a file NAME.html")
     found = [runs.Result(folder) for folder in given.results]
-    if in_space(found, given):
+    space = in_space(found, given)
+    if space:
         require("matplotlib")
         import curves
-        import space_report as reports
+        import three
         if len(found) > len(curves.OF_RUNS):
             raise Wrong(f"{len(found)} results, expected {len(curves.OF_RUNS)} at most")
-    else:
-        import report as reports
-    page = reports.page(found)
+    page = report.page(found)
     files.put({out: page.encode()})
-    print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
+    still = f"; {three.MISSING}" if space and three.program() is None else ""
+    print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB{still}")
 
 
 def compare(given):
@@ -187,7 +203,7 @@ def view(given):
     require("numpy")
     import results
     try:
-        return {"plot": plot, "report": report, "compare": compare}[given.command](given)
+        return {"plot": plot, "report": make_report, "compare": compare}[given.command](given)
     except results.ResultError as error:
         raise Wrong(error) from error
 

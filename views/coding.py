@@ -72,6 +72,14 @@ class Block:
         self.parts.append(data)
         return q, e
 
+    def add_integers(self, numbers):
+        """As they are: so many digits that the exponent is 0; predicted by the one before or by 0."""
+        numbers = np.asarray(numbers, np.int64)
+        largest = int(np.abs(numbers).max(initial=0))
+        by_zero, by_before = (len(deflated(folded(each)[0], 1)) for each in (numbers, np.diff(numbers)))
+        self.add(numbers.astype(float), len(str(largest)) if largest else 1,
+                 (lambda e: 0) if by_zero < by_before else None)
+
     def back(self, blocks, e):
         """The integers of the same array so many blocks earlier, times 10^e here;
         None where they are too different."""

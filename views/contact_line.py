@@ -9,9 +9,17 @@ import numpy as np
 FACING = -0.5  # the cosine of 120 degrees between the normals of sides that face each other
 
 
+def keys_of(rows):
+    """A number for each row of small integers from 0, in the order of the rows."""
+    size = int(rows.max(initial=0)) + 1
+    if size ** rows.shape[1] > np.iinfo(np.int64).max:
+        return np.unique(rows, axis=0, return_inverse=True)[1].ravel()
+    return np.ravel_multi_index(rows.T, (size,) * rows.shape[1])
+
+
 def boundary_sides(sides):
     """Numbers of the sides that belong to one element only, each given by its nodes."""
-    _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+    _, first, count = np.unique(keys_of(np.sort(sides, axis=1)), return_index=True, return_counts=True)
     return first[count == 1]
 
 

@@ -16,7 +16,7 @@ def contact(views, exact=None):
     one. exact:
     a pressure to draw beside them."""
     if views[0].result.space:
-        return space.contact(views)
+        return space.contact_map.contact(views)
     lines = [each.result.lines(each.run) for each in views]
     n = max(map(len, lines))
     if n == 0:

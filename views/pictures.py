@@ -12,15 +12,16 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 
+import contact_surface  # noqa: E402
 import shapes  # noqa: E402
 from columns import ROUNDING, labelled  # noqa: E402
 from ending import Wrong  # noqa: E402
-from recovery import averaged, von_mises  # noqa: E402
+from recovery import averaged, averaged_von_mises  # noqa: E402
 from runs import extent, natural_scale, top_of  # noqa: E402
 
 INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
 NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"
-COLOURS, SIGNED_COLOURS = "viridis", "RdBu_r"
+COLOURS, SIGNED_COLOURS, PRESSURES = "viridis", "RdBu_r", "YlOrRd"
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10.5, "axes.labelsize": 9,
     "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK,
@@ -40,6 +41,10 @@ class View:
     result: object  # runs.Result
     run: object  # results.Run
     step: int
+
+    def __post_init__(self):
+        if self.result.space:
+            contact_surface.attach(self.run, self.result.interfaces)
 
 
 def view(result, step=None):
@@ -66,8 +71,7 @@ def shown_values(view, field, raw):
         elif raw or not field.recoverable:
             found[name] = values[name]
         elif field.name == "von_mises":
-            parts = [averaged(body, body.stress[:, c]) for c in range(body.stress.shape[1])]
-            found[name] = von_mises(*parts)
+            found[name] = averaged_von_mises(body)
         else:
             found[name] = averaged(body, values[name])
     return found
@@ -80,6 +84,7 @@ def colours_of(field, of_views):
                  {name: each for name, each in named.items() if not bodies[name].rigid})
                 for bodies, named in of_views]
     values = np.concatenate([each.ravel() for _, named in of_views for each in named.values()])
+    values = values[np.isfinite(values)]  # contact surfaces are not everywhere
     low, high = values.min(), values.max()
     size = max(abs(low), abs(high))
     cut = False
@@ -94,7 +99,7 @@ def colours_of(field, of_views):
     if high - low <= ROUNDING * size or size == 0:
         margin = 0.1 * size or 1.0
         low, high = low - margin, high + margin
-    colours = SIGNED_COLOURS if field.signed else COLOURS
+    colours = SIGNED_COLOURS if field.signed else PRESSURES if field.of_contact else COLOURS
     return Normalize(low, high), matplotlib.colormaps[colours], cut
 
 
@@ -271,7 +276,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
            raw=False, look=None):
     """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in
     place of those that the values suggest. raw: stresses of the triangles, not recovered at the vertices.
-    look: azimuth and elevation of the eye, in space."""
+    look: contact_surface.Look, in space."""
     if views[0].result.space:
         return space.fields(views, field_name, scale, window, norm, colours, strips, raw, look)
     field, values, cut = None, [None] * len(views), False

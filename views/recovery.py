@@ -5,17 +5,33 @@ import numpy as np
 from runs import areas
 
 
+class Means:
+    """Values of triangles as values of their vertices, one for each region there: the mean over the triangles
+    at a vertex, weighted by area (in space: tetrahedra, volume). `places`: of the corners, n x 3."""
+
+    def __init__(self, body):
+        regions = np.unique(body.cells.get("region", np.zeros(len(body.simplices))), return_inverse=True)[1]
+        self.places = body.simplices + len(body.points) * regions[:, None]
+        self.count = self.places.max() + 1
+        self.area = np.repeat(areas(body), self.places.shape[1])
+        weight = np.bincount(self.places.ravel(), self.area, self.count)
+        self.weight = np.where(weight > 0, weight, 1)
+
+    def __call__(self, values):
+        each = np.repeat(values, self.places.shape[1])
+        return np.bincount(self.places.ravel(), self.area * each, self.count) / self.weight
+
+
 def averaged(body, values):
-    """By vertex and region, of values by triangle: their mean over the triangles at the vertex, weighted by
-    area (in space: tetrahedra, volume); as one value for each corner of the triangles, n x 3."""
-    regions = np.unique(body.cells.get("region", np.zeros(len(body.simplices))), return_inverse=True)[1]
-    places = body.simplices + len(body.points) * regions[:, None]
-    corners = places.shape[1]
-    area = np.repeat(areas(body), corners)
-    count = places.max() + 1
-    weight = np.bincount(places.ravel(), area, count)
-    summed = np.bincount(places.ravel(), area * np.repeat(values, corners), count)
-    return (summed / np.where(weight > 0, weight, 1))[places]
+    """Means as one value for each corner of the triangles, n x 3."""
+    means = Means(body)
+    return means(values)[means.places]
+
+
+def averaged_von_mises(body):
+    """Of the means of the components."""
+    means = Means(body)
+    return von_mises(*map(means, body.stress.T))[means.places]
 
 
 def von_mises(*components):

@@ -1,7 +1,8 @@
 """mortier report: results as one HTML file that needs nothing else and no network.
 
-The file holds data, a program and its looks (views/page). Text of the user's is in the data only, where no
-HTML is read, and is shown as text; a policy in the page lets the browser run nothing but the one program.
+The file holds data, a program and its looks (views/page), in space three.js as well. Text of the user's is in
+the data only, where no HTML is read, and is shown as text; a policy in the page lets the browser run nothing
+but these programs.
 """
 import base64
 import hashlib
@@ -9,12 +10,15 @@ import html
 import json
 import os
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
 import columns
+import solids
 import tables
+import three
 from coding import Block, scaled
 from contact_line import boundary_edges
 from ending import shown
@@ -23,7 +27,10 @@ from runs import extent, natural_scale, top_of
 
 PAGE = Path(__file__).resolve().parent / "page"
 # one after the other, one function
-PROGRAM = ("data.js", "values.js", "bodies.js", "charts.js", "controls.js", "page.js")
+PROGRAM = ("data.js", "values.js", "colours.js", "bodies.js", "charts.js", "controls.js", "pointer.js",
+           "page.js")
+IN_SPACE = ("data.js", "solids.js", "colours.js", "charts.js", "controls.js", "turning.js", "cutting.js",
+            "page.js")
 # of all kept steps together: beyond that steps are left out, so that the page stays small
 TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less
@@ -31,6 +38,7 @@ NOISE = 1e-9  # of the largest of a kind of field
 HISTORY_ROWS = 1500  # of a longer history some are left out
 SCENE_LETTERS = 200_000
 VIRIDIS = ("440154 482173 433e85 38588c 2d708e 25858e 1e9b8a 2ab07f 52c569 86d549 c2df23 fde725").split()
+YELLOW_RED = ("ffffcc ffeda0 fed976 feb24c fd8d3c fc4e2a e31a1c bd0026 800026").split()
 RED_BLUE = ("053061 2166ac 4393c3 92c5de d1e5f0 f7f7f7 fddbc7 f4a582 d6604d b2182b 67001f").split()
 
 
@@ -58,15 +66,9 @@ def mesh_block(body):
     middle = edges[:, 0] if body.elements is None else body.elements[owner, 3 + side]
     for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0],
                     edges[:, 1], owner, middle - edges[:, 0]):
-        add_integers(block, numbers)
-    add_integers(block, body.cells.get("region", np.zeros(len(body.triangles))))
+        block.add_integers(numbers)
+    block.add_integers(body.cells.get("region", np.zeros(len(body.triangles))))
     return block, len(edges)
-
-
-def add_integers(block, numbers):
-    """As they are: so many digits that the exponent is 0."""
-    largest = int(np.abs(numbers).max(initial=0))
-    block.add(np.asarray(numbers, float), len(str(largest)) if largest else 1)
 
 
 def step_block(result, run, fields, earlier, many):
@@ -117,7 +119,16 @@ def numbers(values, digits=6):
 
 
 def run_data(result, share):
-    """What the page knows of a run; share: of TRIANGLES."""
+    """What the page knows of a run; share: of what fits into it."""
+    bodies = solids.run_data(result, share) if result.space else plane_data(result, share)
+    return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
+            "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
+            "keptSteps": len(result.kept), "history": history_of(result, bodies["extent"]), **bodies,
+            **words_of(result)}
+
+
+def plane_data(result, share):
+    """Bodies and contact lines of a run in the plane; share: of TRIANGLES."""
     kept = result.kept
     first = result.at(kept[-1][0])
     triangles = sum(len(body.triangles) for body in first.bodies.values())
@@ -155,11 +166,8 @@ def run_data(result, share):
     listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
                "signed": field.signed}
               for name, field in fields.items()]
-    return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
-            "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
-            "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
-            "steps": steps, "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
-            "extent": size, "history": history_of(result, size), **words_of(result)}
+    return {"bodies": bodies, "fields": listed, "order": order_of(fields), "steps": steps, "ranges": ranges,
+            "lines": lines, "scale": natural_scale(first.bodies.values()), "extent": size}
 
 
 def history_of(result, size):
@@ -183,7 +191,7 @@ def words_of(result):
     summary = result.summary
     scene, settings = summary.get("scene_text"), summary.get("settings")
     return {"quantities": tables.quantities(result), "tables": tables.pairs(result),
-            "grids": tables.grids(result), "plan": plan_of(summary),
+            "grids": tables.grids(result),
             "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
             "settings": [shown(each, 500) for each in settings] if isinstance(settings, list) else [],
             "path": shown(summary.get("scene", ""), 500)}
@@ -212,26 +220,38 @@ def plan_of(summary):
 
 
 def page(results):
-    data = {"runs": [run_data(result, 1 / len(results)) for result in results],
-            "colours": {"plain": VIRIDIS, "signed": RED_BLUE}}
+    space = results[0].space
+    library = three.program() if space else None
+    with ThreadPoolExecutor() as pool:  # geometries are meshed for the plans, which takes its time
+        plans = [pool.submit(plan_of, result.summary) for result in results]
+        runs = [run_data(result, 1 / len(results)) for result in results]
+        runs = [{**run, "plan": plan.result()} for run, plan in zip(runs, plans)]
+    # pictures for browsers that cannot turn bodies
+    stills = f'<div id="stills">{"".join(run.pop("still") for run in runs)}</div>\n' if space else ""
+    data = {"space": space, "runs": runs,
+            "colours": {"plain": VIRIDIS, "signed": RED_BLUE, "contact": YELLOW_RED},
+            "three": three.packed(library) if library else None}
     titles = list(dict.fromkeys(run["title"] for run in data["runs"]))
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it
-    parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in PROGRAM)
+    parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in (IN_SPACE if space else PROGRAM))
     program = (f'"use strict";\n(async () => {{\n{parts}}})().catch(error => {{\n'
                '  document.getElementById("page").prepend('
                "`This page cannot be drawn: ${error}. It needs a browser of 2023 or later.`);\n"
                "  throw error;\n});\n")
     looks = (PAGE / "page.css").read_text(encoding="utf-8")
-    policy = f"default-src 'none'; script-src '{digest(program)}'; style-src '{digest(looks)}'; img-src data:"
+    licence = f"<!--\n{three.LICENCE}-->\n" if library else ""
+    programs = " ".join(f"'{digest(each)}'" for each in (program, library) if each)
+    policy = f"default-src 'none'; script-src {programs}; style-src '{digest(looks)}'; img-src data:"
     return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             f"<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
             f"<title>{html.escape(', '.join(titles))}</title>\n<style>{looks}</style>\n</head>\n<body>\n"
             "<noscript>This page draws with JavaScript, which is switched off.</noscript>\n"
-            f"<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">{text}</script>\n"
-            f"<script>{program}</script>\n</body>\n</html>\n")
+            f"<main id=\"page\"></main>\n{stills}"
+            f"<script type=\"application/json\" id=\"data\">{text}</script>\n"
+            f"<script>{program}</script>\n{licence}</body>\n</html>\n")
 
 
 def digest(text):

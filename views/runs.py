@@ -6,9 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+import contact_surface
 import results
 from contact_line import ContactLine
 from ending import Wrong, shown
+from surfaces import volumes
 
 
 @dataclass
@@ -24,6 +26,11 @@ class Field:
     def recoverable(self):
         """Whether it is constant in triangles because the triangles are linear."""
         return self.name == "von_mises" or self.name[1:].isdigit()
+
+    @property
+    def of_contact(self):
+        """Whether only contact surfaces have it."""
+        return self.name in contact_surface.FIELDS
 
     @property
     def marked(self):
@@ -136,6 +143,8 @@ class Result:
                     raise results.ResultError(f"{self.folder / 'contact.csv'}: interface {each}, "
                                               f"vertex {vertex}: there is no such node")
             results.require_finite(self.folder, "contact pressures", contact.pressure)
+            if self.space and len(contact.vertex) and contact.position.shape[1] != 3:
+                raise results.ResultError(f"{self.folder / 'contact.csv'}: no column z")
             self.steps_read = {step: run}  # the last one only: a run of many steps need not fit in memory
         return self.steps_read[step]
 
@@ -175,8 +184,18 @@ class Result:
                  Field("error", f"estimated error of the stress, share of the {self.element}", "", False,
                        False,
                        lambda body: body.cells["error"]),
+                 *self.contact_fields(run),
                  Field("region", "region", "", False, False, lambda body: body.cells["region"].astype(float))]
         return {field.name: field for field in made}
+
+    def contact_fields(self, run):
+        """Of bodies in space: values by node, not a number off the nonmortar sides."""
+        if not self.space or not len(run.contact.vertex):
+            return []
+        return [Field(name, words, unit, True, signed,
+                      lambda body, name=name: body.contact.get(name, np.full(len(body.points), np.nan)))
+                for name, words, unit, signed in (("pressure", "contact pressure", self.stress_unit, False),
+                                                  ("gap", "gap", self.length_unit, True))]
 
     def stuck(self, run):
         """Body, triangle and words of the place to look at where a run stopped early: where the step that was
@@ -231,28 +250,46 @@ def areas(body):
     """Of the triangles as meshed; the volumes of tetrahedra."""
     corners = body.points[body.simplices]
     if body.tetrahedra is not None:
-        return np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+        return np.abs(volumes(corners))
     (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     return np.abs(x1 * y2 - x2 * y1) / 2
 
 
 def top_of(field, bodies, values):
-    """Where the colours of a field end: 99.5 % of the area has a smaller value. values: by triangle, by
-    corner of the triangles or by vertex."""
-    sizes, weights = [], []
+    """Where the colours of a field end. values: by triangle, by corner of the triangles or by vertex."""
+    of_all, weights, near = [], [], []
     for name, body in bodies.items():
-        area, each = areas(body), values[name]
-        of_corners = np.repeat(area, body.simplices.shape[1]) / body.simplices.shape[1]
-        if each.ndim == 2:
-            area = of_corners
-        elif field.by_vertex:
-            area = np.bincount(body.simplices.ravel(), of_corners, len(each))
-        sizes.append(np.abs(each.ravel()) if field.signed else each.ravel())
-        weights.append(area)
-    sizes, weights = np.concatenate(sizes), np.concatenate(weights)
+        each, area = values[name], areas(body)
+        each = each[body.simplices] if field.by_vertex and each.ndim == 1 else each
+        close = np.zeros(len(area), bool) if getattr(body, "near", None) is None else body.near
+        times = each.size // len(area)
+        of_all.append(each.ravel())
+        weights.append(np.repeat(area, times))
+        near.append(np.repeat(close, times))
+    return top(field, *map(np.concatenate, (of_all, weights, near)))
+
+
+def top(field, values, weights, near):
+    """99.5 % of the area (in space: volume) has a smaller value, and 90 % of what is near closed contact; on
+    contact surfaces see top_of_contact. All are one number a place."""
+    sizes = np.abs(values) if field.signed or field.of_contact else values
+    if field.of_contact:
+        return top_of_contact(sizes)
+    found = weighted_quantile(sizes, weights, 0.995)
+    return max(found, weighted_quantile(sizes[near], weights[near], 0.9)) if near.any() else found
+
+
+def top_of_contact(sizes):
+    """1.5 times the value below which values are half of the sum: peaks at edges are beyond it."""
+    sizes = sizes[sizes > 0]
+    return 1.5 * weighted_quantile(sizes, sizes, 0.5) if len(sizes) else 0.0
+
+
+def weighted_quantile(sizes, weights, share):
+    """The least value of which the weights up to it are that share."""
     order = np.argsort(sizes, kind="stable")
     summed = np.cumsum(weights[order])
-    return sizes[order[min(np.searchsorted(summed, 0.995 * summed[-1]), len(order) - 1)]]
+    return sizes[order[min(np.searchsorted(summed, share * summed[-1]), len(order) - 1)]]
 
 
 def extent(bodies):

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact_line import boundary_sides
+from contact_line import boundary_sides, keys_of
 
 OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # sides of a tetrahedron, seen from outside
 MIDDLE = np.array([[0, 4, 6, 7], [4, 1, 5, 8], [6, 5, 2, 9], [7, 8, 9, 3]])  # node between two corners
@@ -13,6 +13,7 @@ QUARTERS = np.array([[[2, 0, 0], [1, 1, 0], [1, 0, 1]], [[1, 1, 0], [0, 2, 0], [
                      [[1, 0, 1], [0, 1, 1], [0, 0, 2]], [[1, 1, 0], [0, 1, 1], [1, 0, 1]]]) / 2
 ALONG = np.array([[False, True, True], [True, False, True], [True, True, False], [False] * 3])
 SHARP = 0.8  # cosine of the angle between sides of the surface with an edge between them
+PIXELS = 130  # on an inch
 FINER = 2  # pixels of the buffer on one of the image
 AT_ONCE = 3_000_000  # pixels of triangles
 LIGHT = np.array([-0.36, 0.55, 0.75])
@@ -28,12 +29,17 @@ def camera(azimuth, elevation):
     return np.array([right, np.cross(eye, right), eye])
 
 
+def volumes(corners):
+    """Of tetrahedra, n x 4 x 3; negative where they are turned back."""
+    (x1, y1, z1), (x2, y2, z2), (x3, y3, z3) = ((corners[:, i] - corners[:, 0]).T for i in (1, 2, 3))
+    return (x1 * (y2 * z3 - z2 * y3) + y1 * (z2 * x3 - x2 * z3) + z1 * (x2 * y3 - y2 * x3)) / 6
+
+
 class Surface:
     """The sides of tetrahedra that belong to one only, counterclockwise from outside."""
 
     def __init__(self, body):
-        corners = body.points[body.tetrahedra]
-        turned = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
+        turned = volumes(body.points[body.tetrahedra]) < 0
         sides = np.where(turned[:, None, None], OUTWARD[:, ::-1], OUTWARD)  # cells x 4 x 3, corners of each
         every = np.take_along_axis(body.tetrahedra[:, None, :], sides, 2)
         of_one = boundary_sides(every.reshape(-1, 3))
@@ -51,8 +57,7 @@ class Surface:
         normal = np.cross(b - a, c - a)
         normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         edges = np.sort(np.stack([self.nodes[:, [1, 2]], self.nodes[:, [2, 0]], self.nodes[:, [0, 1]]], 1), 2)
-        _, number, count = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True, return_counts=True)
-        number = number.ravel()
+        _, number, count = np.unique(keys_of(edges.reshape(-1, 2)), return_inverse=True, return_counts=True)
         summed = np.zeros((len(count), 3))
         np.add.at(summed, number, np.repeat(normal, 3, 0))
         cosine = ((summed**2).sum(1) - 2) / 2  # of two sides
@@ -204,3 +209,19 @@ class Buffer:
         if not (0 <= x < self.wide and 0 <= y < self.tall):
             return False
         return point[2] >= self.depth.reshape(self.tall, -1)[y, x] - 3
+
+
+def painted(values, norm, colours):
+    """Colours of values by corner of triangles."""
+    table = colours(np.linspace(0, 1, 1024))[:, :3]
+
+    def paint(triangles, at):
+        seen = norm((at * values[triangles]).sum(1))
+        return table[np.clip(np.nan_to_num(seen) * 1024, 0, 1023).astype(int)]
+    return paint
+
+
+def show(axes, image, window):
+    axes.imshow(image, extent=window, zorder=2, interpolation="antialiased", aspect="equal")
+    axes.set_xlim(window[:2])
+    axes.set_ylim(window[2:])

@@ -106,9 +106,10 @@ Command addPlot(CLI::App& app) {
   addText(command, "--step", "a step that was kept (default: the last one)", "N");
   addText(command, "--field", "von_mises (default), s11, s22, s12, s33, u, ux, uy, error ...", "NAME");
   addText(command, "--scale", "of displacements (default: such that they are seen)", "X");
-  addText(command, "--window", "part of the plane (default: all)", "XMIN,XMAX,YMIN,YMAX");
-  addText(command, "--view", "in space: direction from which it is seen, degrees (default: -60,25)",
-          "AZIMUTH,ELEVATION");
+  addText(command, "--window", "part of the plane, in space of the picture (default: all)",
+          "XMIN,XMAX,YMIN,YMAX");
+  addText(command, "--view", "in space: from where it is seen, by name or in degrees (default: -60,25)",
+          "front|top|contact|AZIMUTH,ELEVATION");
   addText(command, "--only", "one of the pictures (default: all)", "fields|contact|history");
   command->add_flag("--animate")->description("a GIF of all steps that were kept as well");
   command->add_flag("--raw")->description("stresses of the triangles, not recovered at the vertices");

@@ -1,14 +1,18 @@
 #include "report/fields.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/formatted.h"
 #include "material/stress.h"
 #include "report/manifest.h"
+#include "report/result_files.h"
 #include "solver/state.h"
 
 namespace mortier {
@@ -36,6 +40,11 @@ class VtuFile {
       throw OutputError(path_.substr(path_.rfind('/') + 1) + ": " + name +
                         " is not finite everywhere; the run is not valid");
     describe("Float64", name, components, componentNames);
+    append(values.data(), values.size() * sizeof(double));
+  }
+  /// One that some points do not have: not a number there.
+  void partial(const std::string& name, const std::vector<double>& values) {
+    describe("Float64", name, 1, {});
     append(values.data(), values.size() * sizeof(double));
   }
   template <class Integer>
@@ -87,7 +96,7 @@ std::vector<double> flat(const Matrix& m) {
   return {m.data(), m.data() + m.size()};
 }
 
-void writePoints(VtuFile& file, const Body& body, const Vector& displacement) {
+void writePoints(VtuFile& file, const Body& body, const Vector& displacement, const ContactOfNodes& contact) {
   std::vector<double> points;
   std::vector<double> u;
   points.reserve(3 * static_cast<size_t>(body.nodes()));
@@ -103,7 +112,53 @@ void writePoints(VtuFile& file, const Body& body, const Vector& displacement) {
   file.shut("Points");
   file.open("PointData", "Vectors=\"displacement\"");
   file.array("displacement", std::move(u), 3);
+  if (!contact.gap.empty()) {
+    file.partial("contact_pressure", contact.pressure);
+    file.partial("gap", contact.gap);
+  }
   file.shut("PointData");
+}
+
+const std::vector<int>& nodesOf(const Body& body) {
+  return body.space() != nullptr ? body.space()->nodes().elements : body.elementNodes().triangles;
+}
+
+/// Nodes in the middle of a side whose two ends have a value get the mean of both.
+void fillMiddles(const Body& body, std::vector<double>& values) {
+  if (body.degree() == 1) return;
+  constexpr std::array<std::array<int, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+  const size_t corners = body.space() != nullptr ? 4 : 3;
+  const size_t sides = body.space() != nullptr ? 6 : 3;
+  const std::vector<int>& nodes = nodesOf(body);
+  for (size_t first = 0; first < nodes.size(); first += corners + sides)
+    for (size_t side = 0; side < sides; ++side) {
+      double& middle = values[nodes[first + corners + side]];
+      const double mean = (values[nodes[first + ends[side][0]]] + values[nodes[first + ends[side][1]]]) / 2;
+      if (std::isnan(middle)) middle = mean;
+    }
+}
+
+/// Of a node on two nonmortar sides the larger pressure and the smaller gap.
+std::vector<ContactOfNodes> contactOfNodes(const Model& model, const State& state) {
+  std::vector<ContactOfNodes> found(model.bodies.size());
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactFields fields = contactFields(model, state, k);
+    const int b = model.interfaces[k].pair().nonmortar.body;
+    ContactOfNodes& of = found[b];
+    const std::vector<double> none(model.bodies[b].nodes(), std::numeric_limits<double>::quiet_NaN());
+    if (of.gap.empty()) of = {none, none};
+    for (size_t i = 0; i < fields.vertex.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      double& pressure = of.pressure[fields.vertex[i]];
+      double& gap = of.gap[fields.vertex[i]];
+      pressure = std::isnan(pressure) ? fields.pressure[row] : std::max(pressure, fields.pressure[row]);
+      gap = std::isnan(gap) ? fields.gap[row] : std::min(gap, fields.gap[row]);
+    }
+  }
+  for (size_t b = 0; b < found.size(); ++b)
+    for (std::vector<double>* values : {&found[b].pressure, &found[b].gap})
+      if (!values->empty()) fillMiddles(model.bodies[b], *values);
+  return found;
 }
 
 /// VTK numbers the nodes of its quadratic cells as ours.
@@ -113,7 +168,7 @@ void writeCells(VtuFile& file, const Body& body) {
   constexpr uint8_t vtkTetrahedron = 10;
   constexpr uint8_t vtkQuadraticTetrahedron = 24;
   const bool space = body.space() != nullptr;
-  const std::vector<int>& nodes = space ? body.space()->nodes().elements : body.elementNodes().triangles;
+  const std::vector<int>& nodes = nodesOf(body);
   const std::vector<int32_t> connectivity(nodes.begin(), nodes.end());
   const size_t perCell = connectivity.size() / body.elements();
   std::vector<int32_t> offsets(body.elements());
@@ -202,14 +257,15 @@ std::string fieldName(const std::string& body, int step) {
   return body + formatted("_%06d.vtu", step);
 }
 
-void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept) {
+void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimates,
+                   const std::vector<ContactOfNodes>& contact, KeptFields& kept) {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const std::string name = fieldName(body.name(), kept.step);
     VtuFile file(folder_ + "/" + name);
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(body.nodes()) + "\" NumberOfCells=\"" +
                            std::to_string(body.elements()) + "\"");
-    writePoints(file, body, body.moved(state.bodies[b].displacement));
+    writePoints(file, body, body.moved(state.bodies[b].displacement), contact[b]);
     writeCells(file, body);
     writeCellData(file, body, state.bodies[b], estimates[b]);
     file.shut("Piece");
@@ -228,10 +284,11 @@ void Fields::add(const State& state, int step) {
   wait();
   kept_.push_back({step, state.time, {}});  // the next one waits until this one is written
   if (triangles < trianglesWorthAThread)
-    write(state, *error_.estimates(), kept_.back());
-  else
-    writing_ = std::async(std::launch::async, [this, state, estimates = error_.estimates()] {
-      write(state, *estimates, kept_.back());
+    write(state, *error_.estimates(), contactOfNodes(model_, state), kept_.back());
+  else  // contact is evaluated here: rows change as the run goes on
+    writing_ = std::async(std::launch::async, [this, state, estimates = error_.estimates(),
+                                               contact = contactOfNodes(model_, state)] {
+      write(state, *estimates, contact, kept_.back());
     });
 }
 

@@ -1,5 +1,6 @@
 // fields.pvd and one .vtu per body and kept step, for ParaView: Float64, raw binary.
-//   points: displacement (x, y, 0 or z) [m]
+//   points: displacement (x, y, 0 or z) [m]; of bodies with a nonmortar side contact_pressure [Pa] and
+//           gap [m], not a number at nodes that are on none; middles of sides have the mean of both ends
 //   cells:  stress (s11, s22, s12; in space s11, s22, s33, s12, s23, s13) [Pa], von_mises [Pa],
 //           viscoplastic_strain (e11, e22, e12) [-], viscoplastic (1 where the stress is beyond yield),
 //           region (label of the triangle), error (estimated, of the stress: share of the triangle in the
@@ -30,6 +31,12 @@ struct KeptFields {
   std::map<std::string, FileRecord> files;  ///< one a body, by name
 };
 
+/// Of all nodes of one body; empty where it has no nonmortar side.
+struct ContactOfNodes {
+  std::vector<double> pressure;  ///< [Pa]
+  std::vector<double> gap;       ///< [m]
+};
+
 class Fields {
  public:
   /// \param error  of the states that are added
@@ -50,7 +57,8 @@ class Fields {
   std::map<std::string, FileRecord> close();
 
  private:
-  void write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept);
+  void write(const State& state, const std::vector<ErrorEstimate>& estimates,
+             const std::vector<ContactOfNodes>& contact, KeptFields& kept);
   /// Until the last step is written.
   void wait();
 

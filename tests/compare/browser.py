@@ -17,7 +17,7 @@ ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
 class Browser:
-    def __init__(self, width=1280, height=900, dark=False, network=False):
+    def __init__(self, width=1280, height=900, dark=False, network=False, webgl=True):
         """network: requests() can be asked."""
         program = shutil.which("chromedriver")
         if program is None or shutil.which("chromium") is None:
@@ -30,6 +30,7 @@ class Browser:
                                         stderr=subprocess.DEVNULL)
         self.address = f"http://127.0.0.1:{port}/session"
         options = ["--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu",
+                   "--enable-unsafe-swiftshader" if webgl else "--disable-3d-apis",
                    "--disable-dev-shm-usage", "--hide-scrollbars",
                    "--force-device-scale-factor=1", f"--user-data-dir={self.folder.name}",
                    f"--window-size={width},{height}", *(["--force-dark-mode"] if dark else [])]

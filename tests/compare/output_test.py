@@ -9,6 +9,7 @@ import numpy as np
 
 import support
 from codes import run_freefem, run_mortier
+import results
 
 STEPS = 5
 
@@ -30,7 +31,10 @@ class Output(support.InSharedFolder):
             self.assertEqual(mesh.points.dtype, np.float64)
             np.testing.assert_array_equal(mesh.points[:, :2], medit.points[:, :2])
             np.testing.assert_array_equal(mesh.cells_dict["triangle"], medit.cells_dict["triangle"])
-            self.assertEqual(set(mesh.point_data), {"displacement"})
+            summary = json.loads((self.run_folder / "summary.json").read_text())
+            nonmortar = summary["interfaces"][0]["nonmortar"]
+            self.assertEqual(set(mesh.point_data), {"displacement", *(["contact_pressure", "gap"]
+                                                                      if name == nonmortar else [])})
             self.assertEqual(set(mesh.cell_data),
                              {"stress", "von_mises", "viscoplastic_strain", "viscoplastic", "region",
                               "error"})
@@ -47,6 +51,16 @@ class Output(support.InSharedFolder):
             accuracy = json.loads((self.run_folder / "summary.json").read_text())["accuracy"]["bodies"][name]
             self.assertAlmostEqual(np.linalg.norm(mesh.cell_data["error"][0]), accuracy, delta=1e-13)
             self.assertGreater(accuracy, 0.01)
+
+    def test_nodes_of_nonmortar_sides_have_pressure_and_gap(self):
+        run = results.read(self.run_folder)
+        name = run.summary["interfaces"][0]["nonmortar"]
+        values = meshio.read(self.run_folder / f"{name}_{STEPS:06d}.vtu").point_data
+        for field, known in (("contact_pressure", run.contact.pressure), ("gap", run.contact.gap)):
+            np.testing.assert_allclose(values[field][run.contact.vertex], known, rtol=1e-12, atol=1e-25)
+            others = np.delete(values[field], run.contact.vertex)
+            self.assertTrue(np.isnan(others).all())
+            self.assertGreater(len(others), len(run.contact.vertex))
 
     def test_viscoplastic_strain_is_what_elasticity_leaves_of_the_strain(self):
         young, poisson = 3e11, 0.3

@@ -13,8 +13,9 @@ from support import ROOT
 from views_support import solve, view
 import images
 
-PAGES = {"report": (1180, 1010, False, 640), "report-dark": (1180, 1010, True, 640),
-         "report-phone": (390, 1000, False, 300)}
+# of each page its width and height, whether it is dark, and the width of the picture
+PAGES = {"report": ("report", 1180, 1010, False, 640), "report-dark": ("report", 1180, 1010, True, 640),
+         "report-phone": ("report", 390, 1000, False, 300), "report-space": ("space", 1180, 760, False, 640)}
 
 
 def main():
@@ -27,16 +28,18 @@ def main():
         folder = Path(folder)
         for variant in ("mortar", "interpolation"):
             solve(folder, variant, "time.steps=100", "output.every=10", f"contact.variant={variant}")
-        for words in (("plot", "mortar", "interpolation", "--only", "fields", "--out", "fields.png"),
+        solve(folder, "punch", scene="round-punch")
+        for words in (("report", "punch", "--out", "space.html"),
+                      ("plot", "mortar", "interpolation", "--only", "fields", "--out", "fields.png"),
                       ("report", "mortar", "interpolation", "--out", "report.html")):
             code, _, errors = view(folder, *words)
             if code:
                 sys.exit(errors)
         save(out / "fields.png", (folder / "fields.png").read_bytes(), 700)
-        for name, (width, height, dark, shown) in PAGES.items():
+        for name, (page, width, height, dark, shown) in PAGES.items():
             browser = Browser(width, height, dark)
             try:
-                browser.open(folder / "report.html")
+                browser.open(folder / f"{page}.html")
                 left, top, w, h = browser.run("const c = document.querySelector('#canvas0'); "
                                               "c.scrollIntoView({block: 'center'}); "
                                               "const r = c.getBoundingClientRect(); "

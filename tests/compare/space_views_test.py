@@ -10,11 +10,14 @@ import numpy as np
 from support import InSharedFolder, mortier
 from views_support import view
 from surfaces import Buffer, Seen, Surface, camera
+import contact_surface
 import known
 import pictures
 import results
 import runs
 import space
+import surfaces
+import three
 from space_test import CUBES
 
 SOFT = ["body.material={young=100, poisson=0.3}", "time.steps=2", "output.every=1"]
@@ -41,7 +44,7 @@ class SpaceViews(InSharedFolder):
             done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings,
                            cwd=cls.folder)
             assert done.returncode == 0, done.stderr
-        cls.enterClassContext(mock.patch.object(space, "PIXELS", 25))  # coarse images are fast
+        cls.enterClassContext(mock.patch.object(surfaces, "PIXELS", 25))  # coarse images are fast
 
     def see(self, *words, code=0):
         found, shown, errors = view(self.folder, *words)
@@ -106,7 +109,7 @@ class SpaceViews(InSharedFolder):
         norm, colours = pictures.Normalize(0, 10), pictures.matplotlib.colormaps["viridis"]
         run = results.read(self.folder / "cubes")
         body = run.bodies["upper"]
-        seen = space.seen_of(body, camera(*space.LOOK), 0.0, body.von_mises, norm, colours, 0)
+        seen = space.seen_of(body, camera(*contact_surface.START), 0.0, body.von_mises, norm, colours, 0)
         np.testing.assert_allclose(seen.colours(np.array([0]), np.full((1, 3), 1 / 3))[0], colours(1.0)[:3],
                                    atol=0.01)
         by_corner = body.points[body.tetrahedra][..., 2] * 10  # a field that is z
@@ -127,7 +130,7 @@ class SpaceViews(InSharedFolder):
 
     def test_the_map_of_the_pressure_has_all_of_the_surface(self):
         result = runs.Result(self.folder / "cubes")
-        of = space.Map(pictures.view(result), 0)
+        of = space.contact_map.Map(pictures.view(result), 0)
         a, b, c = np.moveaxis(of.body.points[of.surface.nodes[of.chosen]], 1, 0)
         self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, 1, delta=1e-12)
         np.testing.assert_allclose(of.turned[:2], [[1, 0, 0], [0, 1, 0]], atol=1e-12)
@@ -141,8 +144,86 @@ class SpaceViews(InSharedFolder):
             self.assertTrue((image[5:-5, 5:-5, 3] == 1).all())  # covered
             pictures.plt.close(figure)
 
+    def test_views_have_names(self):
+        result = runs.Result(self.folder / "cubes")
+        seen = pictures.view(result)
+        for name, angles in (("front", (-90, 0)), ("top", (-90, 90)), ("contact", (-90, -90))):
+            self.assertEqual(contact_surface.look_of(seen.run, result.interfaces, name).angles, angles)
+            self.see("plot", "cubes", "--view", name, "--only", "fields", "--out", f"{name}.png")
+        look = contact_surface.look_of(seen.run, result.interfaces, "contact")
+        self.assertEqual((look.body, look.hidden), ("upper", ("lower",)))
+        self.assertEqual(np.ptp(seen.run.bodies["upper"].points[look.nodes], axis=0).tolist(), [1, 1, 0])
+        self.assertIn("no contact", self.see("plot", "alone", "--view", "contact", code=2))
+        self.assertIn("front, top, contact", self.see("plot", "cubes", "--view", "side", code=2))
+
+    def test_a_surface_in_a_hole_is_seen_through_its_opening(self):
+        angle = np.linspace(0, 2 * np.pi, 25)[:-1]
+        ring = np.concatenate([r * np.column_stack([np.cos(angle), np.sin(angle)]) for r in (1, 2)])
+        points = np.concatenate([np.column_stack([ring, np.full(48, z)]) for z in (0.0, 1.0)])
+        cells = []
+        for i in range(24):
+            j = (i + 1) % 24
+            for a, b, c in ((i, 24 + i, 24 + j), (i, 24 + j, j)):
+                d, e, f = a + 48, b + 48, c + 48
+                cells += [(a, b, c, d), (b, c, d, e), (c, d, e, f)]
+        body = results.Body(np.zeros((96, 3)), np.zeros((len(cells), 6)), points,
+                            tetrahedra=np.array(cells))
+        nodes = contact_surface.surface_of(body).nodes
+        inside = np.flatnonzero(np.isclose(np.hypot(*points[nodes][..., :2].transpose(2, 0, 1)), 1).all(1))
+        self.assertEqual(len(inside), 48)
+        azimuth, elevation = contact_surface.best_angles(body, inside, np.ones(48))
+        self.assertGreater(abs(elevation), 20)
+        self.assertLess(abs(elevation), 80)
+
+    def test_a_window_is_of_the_picture(self):
+        seen, look = [pictures.view(runs.Result(self.folder / "cubes"))], contact_surface.Look((-90.0, 0.0))
+        with pictures.plt.rc_context(pictures.STYLE):
+            figure = pictures.fields(seen, window=(0.1, 0.9, -0.3, 0.4), look=look)
+            axes = figure.axes[0]
+            self.assertEqual((*axes.get_xlim(), *axes.get_ylim()), (0.1, 0.9, -0.3, 0.4))
+            self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("x [m]", "z [m]"))
+            pictures.plt.close(figure)
+
+    def test_colours_show_the_contact(self):
+        run = pictures.view(runs.Result(self.folder / "finer")).run
+        near = run.bodies["upper"].near
+        self.assertTrue(0 < near.sum() <= len(near))
+        field = runs.Field("von_mises", "", "", False, False, None)
+        values, weights = np.r_[np.full(10_000, 0.1), np.full(10, 1.0), 50.0], np.ones(10_011)
+        close = values >= 1
+        self.assertEqual(runs.top(field, values, weights, close & False), 0.1)
+        self.assertEqual(runs.top(field, values, weights, close), 1)  # not the singular place
+
+    def test_contact_surfaces_are_seen_through_the_bodies(self):
+        seen = [pictures.view(runs.Result(self.folder / "cubes"))]
+        with pictures.plt.rc_context(pictures.STYLE):
+            for name in ("pressure", "gap"):
+                figure = pictures.fields(seen, name)
+                image = figure.axes[0].images[0].get_array()
+                self.assertTrue((image[..., 3] == space.GLASS).any() and (image[..., 3] == 1).any())
+                pictures.plt.close(figure)
+
+    def test_files_have_pressure_and_gap(self):
+        import meshio
+        done = mortier("run", "cubes.toml", "--quiet", "--out", "quadratic", "--set", *SOFT, "degree=2",
+                       cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        contact = results.read(self.folder / "quadratic").contact
+        mesh = meshio.read(self.folder / "quadratic" / "upper_000002.vtu")
+        self.assertNotIn("gap", meshio.read(self.folder / "quadratic" / "lower_000002.vtu").point_data)
+        for name, known in (("contact_pressure", contact.pressure), ("gap", contact.gap)):
+            values = mesh.point_data[name]
+            np.testing.assert_allclose(values[contact.vertex], known, rtol=1e-12, atol=1e-25)
+            below = mesh.points[:, 2] == 0
+            self.assertEqual(np.isfinite(values).tolist(), below.tolist())  # middles of sides as well
+            for middle, ends in enumerate(([0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3])):
+                nodes = mesh.cells_dict["tetra10"]
+                mean = values[nodes[:, ends]].mean(1)
+                on = np.isfinite(mean)
+                np.testing.assert_allclose(values[nodes[on, 4 + middle]], mean[on], rtol=1e-12, atol=1e-25)
+
     def test_options_of_the_plane_are_refused(self):
-        self.assertIn("--window", self.see("plot", "cubes", "--window=0,1,0,1", code=2))
+        self.assertIn("--window", self.see("plot", "cubes", "--window=1,0,0,1", code=2))
         self.assertIn("s23", self.see("plot", "cubes", "--field", "s21", code=2))
         self.assertIn("--view", self.see("plot", "cubes", "--view=1000,2", code=2))
         plane = mortier("run", known.ROOT / "scenes/compression.toml", "--quiet", "--out", "plane", "--set",
@@ -172,13 +253,19 @@ class SpaceViews(InSharedFolder):
         self.assertIn("upper, tetrahedron 3 at (", result.stuck(result.at(2))[2])
         self.see("plot", "cubes.failed", "--only", "fields", "--out", "failed.png")
 
-    def test_report_is_a_page_without_a_program(self):
-        self.see("report", "cubes", "alone", "--out", "page.html")
+    def test_the_page_has_a_picture_and_says_where_three_js_is_missing(self):
+        told = self.see("report", "cubes", "alone", "--out", "page.html")
+        self.assertNotIn("libjs-three", told)
         page = (self.folder / "page.html").read_text()
-        self.assertNotIn("<script", page)
-        for words in ("bodies in space", "tetrahedra", "displacement z", "Contact surfaces", "pressed"):
+        for words in ("bodies in space", "tetrahedra", "displacement z", "Contact surfaces", "pressed",
+                      "Permission is hereby granted"):
             self.assertIn(words, page)
-        self.assertEqual(page.count('src="data:image/png'), 3 + 1 + 2)
+        self.assertEqual(page.count('src="data:image/png'), 2)
+        with mock.patch.object(three, "FOLDER", self.folder / "nowhere"):
+            told = self.see("report", "cubes", "--out", "still.html")
+        self.assertIn("libjs-three is not installed", told)
+        self.assertEqual(len(told.splitlines()), 1)
+        self.assertNotIn("Permission is hereby granted", (self.folder / "still.html").read_text())
 
     def test_compare_with_a_result_on_the_same_and_on_other_meshes(self):
         settings = [f"--set={each}" for each in SOFT]

@@ -1,6 +1,6 @@
 // ---- The page ---------------------------------------------------------------------------------------------
 const page = document.getElementById("page"), now = {
-  field: "von_mises",
+  field: runs[0].fields[0].name,
   step: 0,
   scale: 1,
   wide: false,
@@ -22,7 +22,7 @@ const times = shared.length > 1 || all.length === 1 ? shared.length ? shared : a
 const timeNow = () => times[now.step];
 const stepOf = run => nearest(run, timeNow());
 
-page.append($("h1", {}, [...new Set(runs.map(run => run.title))].join(", ")));
+const head = page.appendChild($("h1", {}, [...new Set(runs.map(run => run.title))].join(", ")));
 for (const run of runs) {
   if (run.failed) page.append($("p", {class: "bad"}, `${run.name} stopped early: ${run.failed}`));
   if (run.steps.length < run.keptSteps)
@@ -35,7 +35,8 @@ const key = () => $(
     ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name)));
 if (runs.length > 1) page.append(key());
 function table(attributes, heads, rows) {
-  const row = (tag, cells) => $("tr", {}, ...cells.map(cell => $(tag, {}, cell)));
+  const row = (tag, cells) => $(
+      "tr", {}, ...cells.map((cell, i) => $(tag, {"data-head": heads[i] || ""}, cell)));
   const body = rows.map(cells => row("td", cells));
   return $("div", {class: "wide"}, $("table", attributes, row("th", heads), ...body));
 }
@@ -96,14 +97,16 @@ page.append($("section", {}, $("h2", {}, "Contact ", $("span", {class: "soft whe
     "Band: from the contact pressure to the normal stress that is recovered in the nonmortar body; its " +
     "width estimates the error. Gap: marks are the weighted gaps of the nodes, lines the distance between " +
     "the deformed meshes.")));
-page.append($("h2", {}, "Bodies ", $("span", {class: "soft when"})));
+const bodiesHead = page.appendChild($("h2", {}, "Bodies ", $("span", {class: "soft when"})));
 const grid = page.appendChild($("div", {class: "runs"}));
+if (data.space) head.after(controls, bodiesHead, grid);
 const panels = runs.map((run, r) => {
   const canvas = $("canvas", {
     id: `canvas${r}`,
     tabindex: 0,
     role: "img",
-    "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
+    "aria-label": `Deformed bodies of ${run.name}. Arrow keys ${
+        data.space ? "turn" : "move"}, plus and minus zoom, 0 shows everything.`
   });
   const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
         time = $("span", {class: "soft"}), bar = $("canvas", {width: SHADES, height: 1}),
@@ -111,6 +114,7 @@ const panels = runs.map((run, r) => {
         most = $("p", {class: "most", id: `most${r}`});
   grid.append(
       $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), `${run.name} `, time),
-        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, legend, bar, scale), most, read));
-  return {run, r, canvas, read, bar, legend, scale, most, time, context: canvas.getContext("2d")};
+        $("div", {class: data.space ? "picture space" : "picture"}, canvas),
+        $("div", {class: "bar"}, legend, bar, scale), most, read));
+  return {run, r, canvas, read, bar, legend, scale, most, time};
 });

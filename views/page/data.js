@@ -23,7 +23,8 @@ async function unpack(text) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
-function arrays(bytes, forms, lengths, later, predict) {  // [{e, q}] of a block
+// [{e, q}] of a block; predict: of what is predicted by the caller, else by 0
+function arrays(bytes, forms, lengths, later, predict = (found, k) => new Float64Array(lengths[k])) {
   const found = [];
   let at = 0;
   forms.forEach(([e, how, weights], k) => {
@@ -56,27 +57,6 @@ function real({e, q}) {
   for (let i = 0; i < q.length; i++) values[i] = scaled(q[i], e);
   return values;
 }
-async function loadMesh(body) {
-  const {vertices: nv, triangles: nt, edges: ne} = body;
-  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
-  const t = new Int32Array(3 * nt);
-  for (let i = 0; i < nt; i++) {
-    t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
-  }
-  const from = a[5].q, middle = from.map((v, i) => v + a[8].q[i]);  // = from where sides are straight
-  Object.assign(body, {
-    x: real(a[0]), y: real(a[1]), corners: t, from, to: a[6].q, owner: a[7].q, middle, region: a[9]
-  });
-  const numbers = new Map();  // of the regions, from 0
-  body.part = Int32Array.from(a[9].q, r => numbers.get(r) ?? numbers.set(r, numbers.size).get(r));
-  body.parts = Math.max(1, numbers.size);
-  const {x, y} = body;
-  body.area = new Float64Array(nt);
-  for (let i = 0; i < nt; i++) {
-    const p = t[3 * i], q = t[3 * i + 1], r = t[3 * i + 2];
-    body.area[i] = Math.abs((x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p])) / 2;
-  }
-}
 const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
 async function readStep(run, i) {  // body number -> field name -> {e, q}
   const step = run.steps[i];
@@ -87,8 +67,7 @@ async function readStep(run, i) {  // body number -> field name -> {e, q}
         later = [];  // steps that it needs
   for (let k = 1; k <= back; k++) { await loadStep(run, i + k); later.push(run.steps[i + k].all); }
   const bytes = await unpack(step.d), names = run.order, n = names.length;
-  const lengths = run.bodies.flatMap(
-      body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
+  const lengths = run.bodies.flatMap(body => names.map(name => lengthOf(run, body, name)));
   const stresses = stressNames.filter(name => names.includes(name));
   step.all = arrays(bytes, step.f, lengths, later, (found, k, e) => {
     const first = k - k % n, s = stresses.map(name => found[first + names.indexOf(name)]);
@@ -104,11 +83,3 @@ function vonMises([s11, s22, s12, s33], i) {
   return Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0));
 }
 const fieldOf = (run, name) => run.fields.find(field => field.name === name);
-function valueOf(fields, name, i) {  // a number with the decimals that it has
-  if (name === "u") {
-    const x = fields.ux, y = fields.uy;
-    return Number(Math.hypot(scaled(x.q[i], x.e), scaled(y.q[i], y.e)).toPrecision(4));
-  }
-  const {e, q} = fields[name];
-  return Number(`${q[i]}e${e}`) || 0;
-}

@@ -1,7 +1,6 @@
 // ---- Values as they are shown -----------------------------------------------------------------------------
 // Stresses and strains are constant in triangles. Recovered ones are their means at the vertices, weighted by
 // area, of each region by itself, and linear between.
-const recoverable = name => /^[se]\d\d$|^von_mises$/.test(name);
 function averaged(body, values) {  // one value for each corner of the triangles
   const {corners, part, parts, area} = body, sums = new Float64Array(body.vertices * parts),
         weights = new Float64Array(body.vertices * parts), found = new Float64Array(corners.length);
@@ -42,4 +41,34 @@ function extremes(shown) {  // the largest value of the bodies, and the smallest
     if (values.length && !(values[least] >= found[1]?.value)) found[1] = place(least);
   });
   return found;
+}
+function valueOf(fields, name, i) {  // a number with the decimals that it has
+  if (name === "u") {
+    const x = fields.ux, y = fields.uy;
+    return Number(Math.hypot(scaled(x.q[i], x.e), scaled(y.q[i], y.e)).toPrecision(4));
+  }
+  const {e, q} = fields[name];
+  return Number(`${q[i]}e${e}`) || 0;
+}
+const lengthOf = (run, body, name) => fieldOf(run, name).vertex ? body.vertices : body.triangles;
+async function loadMesh(body) {
+  const {vertices: nv, triangles: nt, edges: ne} = body;
+  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
+  const t = new Int32Array(3 * nt);
+  for (let i = 0; i < nt; i++) {
+    t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
+  }
+  const from = a[5].q, middle = from.map((v, i) => v + a[8].q[i]);  // = from where sides are straight
+  Object.assign(body, {
+    x: real(a[0]), y: real(a[1]), corners: t, from, to: a[6].q, owner: a[7].q, middle, region: a[9]
+  });
+  const numbers = new Map();  // of the regions, from 0
+  body.part = Int32Array.from(a[9].q, r => numbers.get(r) ?? numbers.set(r, numbers.size).get(r));
+  body.parts = Math.max(1, numbers.size);
+  const {x, y} = body;
+  body.area = new Float64Array(nt);
+  for (let i = 0; i < nt; i++) {
+    const p = t[3 * i], q = t[3 * i + 1], r = t[3 * i + 2];
+    body.area[i] = Math.abs((x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p])) / 2;
+  }
 }
