@@ -13,7 +13,6 @@ import random
 import re
 import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
