@@ -7,6 +7,27 @@
 
 namespace mortier {
 
+namespace {
+
+bool solvedBy(StepSystem& system, const StepSystem::Linearised& linearised, const Step& step, double residual,
+              const Iterate& before, Iterate& iterate, StepOutcome& outcome) {
+  const double part = std::clamp(0.1 * residual, 1e-10, 1e-2);
+  const char* m = getenv("MOST");
+  const int most = m ? atoi(m) : 8;
+  if (system.hasFactors()) {
+    StepOutcome attempt;
+    const StepSystem::Factorised kept = linearised.keepFactors();
+    if (kept.solve(step, iterate, attempt) && kept.complete(step, before, part, most, iterate)) return true;
+    iterate = before;
+  }
+  const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+  if (!factorised || !factorised->solve(step, iterate, outcome)) return false;
+  factorised->complete(step, before, part, most, iterate);
+  return true;
+}
+
+}  // namespace
+
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate) {
   // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
@@ -25,6 +46,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   int corrections = 0;
   double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
+  const bool completes = limits.shortens && system.completes();
   prescribe(system.model(), step, iterate);
   StepSystem::Linearised linearised =
       system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
@@ -41,12 +63,17 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       return outcome;
     }
     ++outcome.iterations;
-    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+    if (getenv("TRACE")) fprintf(stderr, "%d%s residual %g\n", outcome.iterations, limits.shortens ? "s" : limits.anticipate ? "a" : "", residual);
     const bool shortens = limits.shortens && outcome.iterations > 1;  // from where contact is solved
-    const Iterate before = shortens ? iterate : Iterate{};
+    const Iterate before = limits.shortens ? iterate : Iterate{};
     const std::vector<Matrix> stressBefore =
         shortens ? stressesOnLaw(linearised, iterate) : std::vector<Matrix>{};
-    if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
+    if (!completes) {
+      const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+      if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
+    } else if (!solvedBy(system, linearised, step, residual, before, iterate, outcome)) {
+      return outcome;
+    }
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
     if (shortens && linearised.residual() > limits.tolerance)
       linearised = shortened(system, step, weight, stressBefore, before, linearised, iterate);
@@ -103,8 +130,6 @@ std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, cons
   for (size_t b = 0; b < iterate.bodies.size(); ++b) {
     const Linearisation& law = linearised.law(static_cast<int>(b));
     stresses.push_back(law.predictor);
-    for (Eigen::Index i = 0; i < stresses[b].cols(); ++i)
-      stresses[b].col(i) += stressOf(law, iterate.bodies[b].strain.col(i), static_cast<int>(i));
   }
   return stresses;
 }
@@ -139,6 +164,7 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
       for (size_t b = 0; b < stress.size(); ++b) iterate.bodies[b].stress = stress[b];
     const double here = slope(stress);
     if (!(first < 0) || std::abs(here) <= -flat * first || (length == 1 && here < 0)) break;
+    if (getenv("TRACE")) fprintf(stderr, "   length %g slope %g first %g\n", length, here, first);
     (here > 0 ? high : low) = length;
     length = (low + high) / 2;
     for (size_t b = 0; b < iterate.bodies.size(); ++b) {
@@ -149,7 +175,7 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
     for (size_t k = 0; k < end.contactForce.size(); ++k)
       iterate.contactForce[k] =
           before.contactForce[k] + length * (end.contactForce[k] - before.contactForce[k]);
-    linearised = system.linearise(step, iterate, weight, false);
+    linearised = system.linearise(step, iterate, weight, true);
   }
   return linearised;
 }

@@ -30,19 +30,21 @@ const char* nameOf(Rung rung) {
 
 namespace {
 
-/// Whether a body flows by a law without a yield stress, or by one that is linearised where the strain leads:
-/// Newton's method may have a long way to come down from elasticity, and the walks, which begin anew, have
-/// none that is shorter. Elsewhere it has corners at which it could turn in circles.
+/// Whether a body flows by a law without a yield stress: Newton's method may have a long way to come down from
+/// elasticity, and the walks, which begin anew, have none that is shorter. Elsewhere it has corners at which
+/// it could turn in circles.
 bool comesDownFromFar(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-    const Material& material = body.material();
-    return !material.linear() && (material.stressScale() == 0 || material.usesReturnMapping());
+    return !body.material().linear() && body.material().stressScale() == 0;
   });
 }
 
-bool anyReturnMapping(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.material().usesReturnMapping(); });
+/// Whether a line search leads Newton's method down to the one solution.
+bool descends(const StepSystem& system) {
+  const std::vector<Body>& bodies = system.model().bodies;
+  return system.uniqueSolutions() && std::all_of(bodies.begin(), bodies.end(), [](const Body& body) {
+           return body.material().usesReturnMapping();
+         });
 }
 
 }  // namespace
@@ -51,22 +53,28 @@ bool anyReturnMapping(const Model& model) {
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  const int plainIterations = comesDownFromFar(system.model()) ? 25 : 7;
   constexpr int firstWalk = 60;
   constexpr int usualIterations = 300;
   constexpr int secondWalk = 100;
   constexpr int longWalk = 1500;
+  constexpr int searching = 60;
   const SolverOptions& options = system.options();
   const Step step = system.step(state0, data);
+  const std::vector<Body>& bodies = system.model().bodies;
+  const bool linear = std::all_of(bodies.begin(), bodies.end(),
+                                  [](const Body& body) { return body.material().linear(); });
+  const bool searches = !linear && descends(system);
+  const int plainIterations = searches ? searching : comesDownFromFar(system.model()) ? 25 : 7;
   if (options.reduce && data.startSolved)
     if (StepOutcome outcome = rest(system, step, guess); outcome.converged()) return outcome;
   if (options.method == Method::penaltyDuality) return penaltyDuality(system, step, guess);
 
   NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};
-  plain.turning = true;
+  plain.turning = !searches;
+  plain.shortens = plain.anticipate = searches;
   // Before the first solve the strain is that of supports which move alone: a law that is linearised there
   // would flow beside them.
-  plain.elasticFirst = anyReturnMapping(system.model()) && !flows(system.model(), state0);
+  plain.elasticFirst = searches && !flows(system.model(), state0);
   StepOutcome total = newton(system, step, data.weight, plain, guess);
   const auto tryMethod = [&](Rung rung, StepOutcome next) {
     total.follow(std::move(next));
@@ -88,21 +96,8 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
     if (total.converged()) guess = std::move(unloaded);
   }
   // The other methods change the law, which is linear already.
-  const std::vector<Body>& bodies = system.model().bodies;
-  const auto linear = [](const Body& body) { return body.material().linear(); };
-  if (effort == Effort::little || std::all_of(bodies.begin(), bodies.end(), linear)) return total;
+  if (effort == Effort::little || linear) return total;
   const bool unique = system.uniqueSolutions();
-  // A way down to the one solution; no other viscosity shows a shorter one.
-  const bool descends = unique && std::all_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-                          return linear(body) || body.material().usesReturnMapping();
-                        });
-  if (unsolved(usualIterations) && descends) {
-    NewtonLimits searching{iterationsLeft(usualIterations), options.tolerance};
-    searching.shortens = true;
-    Iterate searched = startingIterate(state0);
-    tryMethod(Rung::newton, newton(system, step, data.weight, searching, searched));
-    if (total.converged()) guess = std::move(searched);
-  }
   ViscosityWalk walk(system.model(), step);
   if (unsolved(usualIterations) && !unique)
     tryMethod(
@@ -110,7 +105,7 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
         lowerViscosity(system, step, walk, std::min(firstWalk, iterationsLeft(usualIterations)), guess));
   if (unsolved(usualIterations))
     tryMethod(Rung::interiorPoint, interiorPoint(system, step, iterationsLeft(usualIterations), guess));
-  if (unsolved(usualIterations) && !descends) {
+  if (unsolved(usualIterations)) {
     const int most = std::min(unique ? usualIterations : secondWalk, iterationsLeft(usualIterations));
     tryMethod(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
   }

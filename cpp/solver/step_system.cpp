@@ -173,6 +173,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   std::vector<CondensedBody>& bodies = system_->bodies_;
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
+  system_->olderFactors_ = false;
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
   for (size_t b = 0; b < bodies.size() && system_->model_.inParts(); ++b) bodies[b].join(factors[b]);
   // After a restart there is neither yet, though factors were counted before it.
@@ -309,6 +310,18 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     row += interface.rows();
   }
   return true;
+}
+
+bool StepSystem::completes() const {
+  return uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts() &&
+         std::none_of(model_.interfaces.begin(), model_.interfaces.end(),
+                      [](const ContactInterface& interface) { return interface.yields(); });
+}
+
+bool StepSystem::hasFactors() const {
+  return contact_.W.rows() == conditions() && conditions() > 0 &&
+         std::all_of(bodies_.begin(), bodies_.end(),
+                     [](const CondensedBody& body) { return body.hasFactors(); });
 }
 
 bool StepSystem::inSinglePrecision() const {

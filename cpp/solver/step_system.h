@@ -121,6 +121,10 @@ class StepSystem {
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
   [[nodiscard]] bool hasFriction() const { return !contact_.along.node.empty(); }
+  /// Whether linear solves can be completed.
+  [[nodiscard]] bool completes() const;
+  /// Whether there are factors, if older ones.
+  [[nodiscard]] bool hasFactors() const;
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -190,6 +194,7 @@ class StepSystem {
   };
   std::array<Loads, 2> loads_;
   size_t latestLoads_ = 0;
+  bool olderFactors_ = false;  ///< in use, not those of the last linearisation
   bool uniqueSolutions_ = true;
 };
 
@@ -216,6 +221,11 @@ class StepSystem::Factorised {
   /// The linear solve: condenses, solves the contact problem and moves the iterate to its solution.
   /// \returns false where there is none; `outcome` then has the reason.
   bool solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const;
+  /// What the factors, of another tangent or rounded, leave of the equilibrium of a linear solve, by conjugate
+  /// gradients on the contacts that are closed.
+  /// \param before  where the solve began  \param part  what may be left, over the solve, in energy
+  /// \returns whether `most` iterations were enough
+  bool complete(const Step& step, const Iterate& before, double part, int most, Iterate& iterate) const;
   /// Condenses the forces that are out of balance to the contact conditions.
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
