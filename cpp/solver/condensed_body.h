@@ -134,7 +134,6 @@ class CondensedBody {
   void useNextEngine();
   [[nodiscard]] int enginesGivenUp() const { return enginesGivenUp_; }
   [[nodiscard]] bool inSinglePrecision() const { return engine_ == LinearEngine::single && !whole_; }
-  [[nodiscard]] bool hasFactors() const { return factorised_ || body_.rigid(); }
   /// Whether the factors are those of elasticity.
   [[nodiscard]] bool elasticFactors() const { return elasticFactors_; }
   /// Those that the next factorise() makes were counted before a run was interrupted.

@@ -9,22 +9,37 @@ namespace mortier {
 
 namespace {
 
-bool solvedBy(StepSystem& system, const StepSystem::Linearised& linearised, const Step& step, double residual,
-              const Iterate& before, Iterate& iterate, StepOutcome& outcome) {
-  const double part = std::clamp(0.1 * residual, 1e-10, 1e-2);
-  const char* m = getenv("MOST");
-  const int most = m ? atoi(m) : 8;
-  if (system.hasFactors()) {
-    StepOutcome attempt;
-    const StepSystem::Factorised kept = linearised.keepFactors();
-    if (kept.solve(step, iterate, attempt) && kept.complete(step, before, part, most, iterate)) return true;
-    iterate = before;
+/// Linear solves whose factors are not those of the tangent, or rounded, each completed.
+class CompletedSolves {
+ public:
+  explicit CompletedSolves(StepSystem& system) : completes_(system.completes()) {}
+  [[nodiscard]] bool completes() const { return completes_; }
+
+  /// With the factors that there are, where that leads to the solution of the linear solve soon, else with new
+  /// ones. \returns false where there is none; `outcome` then has the reason.
+  bool solve(const StepSystem::Linearised& linearised, const Step& step, Iterate& iterate,
+             StepOutcome& outcome) {
+    constexpr int soon = 8;
+    constexpr double roughly = 1e-2;
+    constexpr double finely = 1e-10;
+    const double part = std::clamp(0.1 * linearised.residual(), finely, roughly);
+    const Iterate before = iterate;
+    if (std::exchange(factorised_, true)) {
+      StepOutcome tried;
+      const StepSystem::Factorised older = linearised.keepFactors(true);
+      if (older.solve(step, iterate, tried) && older.complete(step, before, part, soon, iterate)) return true;
+      iterate = before;
+    }
+    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+    if (!factorised || !factorised->solve(step, iterate, outcome)) return false;
+    factorised->complete(step, before, part, soon, iterate);
+    return true;
   }
-  const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
-  if (!factorised || !factorised->solve(step, iterate, outcome)) return false;
-  factorised->complete(step, before, part, most, iterate);
-  return true;
-}
+
+ private:
+  bool completes_;
+  bool factorised_ = false;
+};
 
 }  // namespace
 
@@ -40,13 +55,15 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   // What single precision leaves falls with each solve, until it is rounding.
   constexpr double falls = 0.25;
   constexpr double rounded = 1e-15;
+  constexpr double balanced = 1e-13;  // by solves that are completed
   const std::vector<Body>& bodies = system.model().bodies;
   bool polish = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.axisymmetric(); });
   int outOfBalance = 0;
   int corrections = 0;
   double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
-  const bool completes = limits.shortens && system.completes();
+  CompletedSolves solves(system);
+  const bool completes = limits.shortens && solves.completes();
   prescribe(system.model(), step, iterate);
   StepSystem::Linearised linearised =
       system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
@@ -65,14 +82,14 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     ++outcome.iterations;
     if (getenv("TRACE")) fprintf(stderr, "%d%s residual %g\n", outcome.iterations, limits.shortens ? "s" : limits.anticipate ? "a" : "", residual);
     const bool shortens = limits.shortens && outcome.iterations > 1;  // from where contact is solved
-    const Iterate before = limits.shortens ? iterate : Iterate{};
+    const Iterate before = shortens ? iterate : Iterate{};
     const std::vector<Matrix> stressBefore =
         shortens ? stressesOnLaw(linearised, iterate) : std::vector<Matrix>{};
-    if (!completes) {
+    if (completes) {
+      if (!solves.solve(linearised, step, iterate, outcome)) return outcome;
+    } else {
       const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
       if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
-    } else if (!solvedBy(system, linearised, step, residual, before, iterate, outcome)) {
-      return outcome;
     }
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
     if (shortens && linearised.residual() > limits.tolerance)
@@ -88,7 +105,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
         linearised = system.linearise(step, iterate, weight, limits.anticipate);
     }
     const double lastBalance = std::exchange(balance, certificate.forceBalance);
-    if (system.inSinglePrecision() && balance > rounded && !(balance > falls * lastBalance)) {
+    const bool falling = !(balance > falls * lastBalance);
+    if ((completes ? balance > balanced : system.inSinglePrecision() && balance > rounded) && falling) {
       ++corrections;
       continue;
     }

@@ -206,7 +206,8 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   return keepFactors();
 }
 
-StepSystem::Factorised StepSystem::Linearised::keepFactors() const {
+StepSystem::Factorised StepSystem::Linearised::keepFactors(bool older) const {
+  system_->olderFactors_ = system_->olderFactors_ || older;
   return {*system_, Key{}};
 }
 
@@ -313,15 +314,11 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
 }
 
 bool StepSystem::completes() const {
-  return uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts() &&
+  const bool inSpace = std::any_of(model_.bodies.begin(), model_.bodies.end(),
+                                   [](const Body& body) { return body.dimension() == 3; });
+  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts() &&
          std::none_of(model_.interfaces.begin(), model_.interfaces.end(),
                       [](const ContactInterface& interface) { return interface.yields(); });
-}
-
-bool StepSystem::hasFactors() const {
-  return contact_.W.rows() == conditions() && conditions() > 0 &&
-         std::all_of(bodies_.begin(), bodies_.end(),
-                     [](const CondensedBody& body) { return body.hasFactors(); });
 }
 
 bool StepSystem::inSinglePrecision() const {

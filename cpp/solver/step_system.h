@@ -121,10 +121,8 @@ class StepSystem {
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
   [[nodiscard]] bool hasFriction() const { return !contact_.along.node.empty(); }
-  /// Whether linear solves can be completed.
+  /// Whether linear solves can be completed (Factorised::complete) and other factors cost much more than that.
   [[nodiscard]] bool completes() const;
-  /// Whether there are factors, if older ones.
-  [[nodiscard]] bool hasFactors() const;
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -208,7 +206,8 @@ class StepSystem::Linearised {
   /// Empty where a tangent is singular; `outcome` then has the reason.
   [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
   /// Takes the factors of the linearisation before, which had the same tangent.
-  [[nodiscard]] Factorised keepFactors() const;
+  /// \param older  it had another one: linear solves have to be completed
+  [[nodiscard]] Factorised keepFactors(bool older = false) const;
 
  private:
   StepSystem* system_;
