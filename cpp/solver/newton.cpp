@@ -80,11 +80,10 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       return outcome;
     }
     ++outcome.iterations;
-    if (getenv("TRACE")) fprintf(stderr, "%d%s residual %g\n", outcome.iterations, limits.shortens ? "s" : limits.anticipate ? "a" : "", residual);
     const bool shortens = limits.shortens && outcome.iterations > 1;  // from where contact is solved
     const Iterate before = shortens ? iterate : Iterate{};
     const std::vector<Matrix> stressBefore =
-        shortens ? stressesOnLaw(linearised, iterate) : std::vector<Matrix>{};
+        shortens ? stressesOnLaw(linearised, iterate.bodies.size()) : std::vector<Matrix>{};
     if (completes) {
       if (!solves.solve(linearised, step, iterate, outcome)) return outcome;
     } else {
@@ -143,12 +142,9 @@ std::optional<Certificate> corrected(StepSystem& system, const StepSystem::Linea
   return certificate;
 }
 
-std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, const Iterate& iterate) {
+std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, size_t bodies) {
   std::vector<Matrix> stresses;
-  for (size_t b = 0; b < iterate.bodies.size(); ++b) {
-    const Linearisation& law = linearised.law(static_cast<int>(b));
-    stresses.push_back(law.predictor);
-  }
+  for (size_t b = 0; b < bodies; ++b) stresses.push_back(linearised.law(static_cast<int>(b)).predictor);
   return stresses;
 }
 
@@ -177,12 +173,11 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
   double high = 1;
   double length = 1;
   for (int i = 0; i < most; ++i) {
-    const std::vector<Matrix> stress = stressesOnLaw(linearised, iterate);
+    const std::vector<Matrix> stress = stressesOnLaw(linearised, iterate.bodies.size());
     if (i > 0)
       for (size_t b = 0; b < stress.size(); ++b) iterate.bodies[b].stress = stress[b];
     const double here = slope(stress);
     if (!(first < 0) || std::abs(here) <= -flat * first || (length == 1 && here < 0)) break;
-    if (getenv("TRACE")) fprintf(stderr, "   length %g slope %g first %g\n", length, here, first);
     (here > 0 ? high : low) = length;
     length = (low + high) / 2;
     for (size_t b = 0; b < iterate.bodies.size(); ++b) {

@@ -130,9 +130,8 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
   const auto stressAlong = [&](const std::vector<Vector>& d, int b) {
     const Linearisation& law = bodies[b].law();
     stress[b].setZero(law.predictor.rows(), law.predictor.cols());
-    forEachBlock(model.bodies[b].points(), system_->threads_, [&](int begin, int end) {
-      model.bodies[b].addStressOf(d[b], law, stress[b], begin, end);
-    });
+    forEachBlock(model.bodies[b].points(), system_->threads_,
+                 [&](int begin, int end) { model.bodies[b].addStressOf(d[b], law, stress[b], begin, end); });
     return model.bodies[b].internalForce(stress[b]);
   };
   std::vector<Vector> forceAlong(count);
@@ -162,10 +161,10 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     take(change);
     for (size_t k = 0; k < change.size(); ++k) iterate.contactForce[k] += change[k];
     const double size = dot(motion, residual);
-    if (getenv("TRACE")) fprintf(stderr, "      cg %d size %g enough %g largest %g noise %g\n", iteration, size, enough, largest, noise);
     if (!(size > enough) || largest <= noise) return size <= enough || largest <= noise;
     if (iteration == most) return false;
-    for (size_t b = 0; b < count; ++b) along[b] = iteration == 0 ? motion[b] : Vector(motion[b] + size / last * along[b]);
+    for (size_t b = 0; b < count; ++b)
+      along[b] = iteration == 0 ? motion[b] : Vector(motion[b] + size / last * along[b]);
     last = size;
     system_->forEachBody([&](int b) { forceAlong[b] = stressAlong(along, b); });
     const double length = size / dot(along, forceAlong);
