@@ -22,7 +22,9 @@ class CompletedSolves {
     constexpr int soon = 8;
     constexpr double roughly = 1e-2;
     constexpr double finely = 1e-10;
-    const double part = std::clamp(0.1 * linearised.residual(), finely, roughly);
+    constexpr double last = 1e-4;  // residual from which on the next linear solve may be the solution
+    const double residual = linearised.residual();
+    const double part = residual < last ? finely : std::min(0.1 * residual, roughly);
     const Iterate before = iterate;
     if (std::exchange(factorised_, true)) {
       StepOutcome tried;
