@@ -98,6 +98,10 @@ class WithElasticPressure {
         bulk_(elasticity.young / (1 - 2 * elasticity.poisson)) {}
 
   [[nodiscard]] bool symmetric() const { return law_.symmetric(); }
+  [[nodiscard]] bool usesReturnMapping() const {
+    if constexpr (requires { law_.usesReturnMapping(); }) return law_.usesReturnMapping();
+    return linear;
+  }
   [[nodiscard]] double stressScale() const { return law_.stressScale(); }
   [[nodiscard]] double stiffness(double weight) const { return law_.stiffness(weight); }
   [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress) const {

@@ -169,7 +169,7 @@ class Material {
   [[nodiscard]] virtual bool flows(const Matrix& stress, int point, const Matrix* strain = nullptr) const = 0;
   /// Whether it is linearised at the stress to which the strain leads (return mapping): Newton's method has
   /// no corner then at which it could turn in circles.
-  [[nodiscard]] virtual bool usesReturnMapping() const { return false; }
+  [[nodiscard]] virtual bool usesReturnMapping() const { return linear(); }
 
   // Of the points [begin, end); what is filled is sized before.
 

@@ -14,7 +14,7 @@ class OverstressLaw {
   static constexpr int components = tensor + remembered;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = kinematic;
-  static constexpr bool usesReturnMapping = true;
+  static bool usesReturnMapping() { return true; }
   using Stress = std::array<Lanes, components>;
   using Numbers = std::array<double, components>;
 

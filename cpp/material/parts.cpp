@@ -97,7 +97,7 @@ class Parts final : public Material, public BackStress, public Pointwise {
     return backStressOf(at(point), viscoplasticStrain, point);
   }
   [[nodiscard]] bool usesReturnMapping() const override {
-    return std::any_of(materials_.begin(), materials_.end(),
+    return std::all_of(materials_.begin(), materials_.end(),
                        [](const auto& m) { return m->usesReturnMapping(); });
   }
 

@@ -39,6 +39,7 @@ class PerzynaLaw : public ElasticLaw<n> {
   PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law);
 
   [[nodiscard]] bool symmetric() const { return symmetric_; }
+  [[nodiscard]] bool usesReturnMapping() const { return symmetric_; }
   [[nodiscard]] double stressScale() const { return law_.yieldStress; }
   [[nodiscard]] double stiffness(double weight) const { return theta(weight) * std::max(e_[0], e_[1]); }
   template <class Scalar>

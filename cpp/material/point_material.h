@@ -17,7 +17,7 @@
 //   double outOfPlane(Eigen::Vector3d) const;     where there are 4 components
 //   ConeLaw cone(double weight) const;            where its interior path is known (interior_path.h)
 //   static constexpr int remembered;              how many components, the last, are none of the tensor
-//   static constexpr bool usesReturnMapping;      as in material.h
+//   bool usesReturnMapping() const;               as in material.h
 //   stress backStress(viscoplastic strain) const; where it hardens kinematically
 //
 // E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and
@@ -124,8 +124,8 @@ class PointMaterial final : public Material, public BackStress {
     return back;
   }
   [[nodiscard]] bool usesReturnMapping() const override {
-    if constexpr (requires { Law::usesReturnMapping; }) return Law::usesReturnMapping;
-    return false;
+    if constexpr (requires { law_.usesReturnMapping(); }) return law_.usesReturnMapping();
+    return Law::linear;
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;

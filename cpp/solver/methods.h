@@ -71,10 +71,10 @@ struct NewtonLimits {
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate);
 
-/// Of each body: stresses on the law where the strain of the iterate leads, as linearised there.
-std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, const Iterate& iterate);
+/// Of each body: stresses on the law, linearised where the strain leads: there the predictor is on it.
+std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, size_t bodies);
 /// Where the slope of the energy at the end of a linear solve is positive, and more than half of that at its
-/// beginning `before`: moves the iterate back to where the slope is nearly zero (line_search.cpp).
+/// beginning `before`: moves the iterate back to where the slope is nearly zero.
 /// \param linearised  at the iterate  \returns the law there
 StepSystem::Linearised shortened(StepSystem& system, const Step& step, double weight,
                                  const std::vector<Matrix>& stressBefore, const Iterate& before,

@@ -48,8 +48,9 @@ LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions&
   if (options.linear == LinearEngine::suitesparse) return options.linear;
   const bool possible = body.dimension() == 3 && body.material().symmetricTangent() && !model.inParts();
   const bool pays = body.freeDofs() >= worthCorrecting &&
-                    std::all_of(model.bodies.begin(), model.bodies.end(),
-                                [](const Body& each) { return each.material().linear(); });
+                    std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& each) {
+                      return each.material().symmetricTangent() && each.material().usesReturnMapping();
+                    });
   return possible && (pays || options.linear == LinearEngine::single) ? LinearEngine::single
                                                                       : LinearEngine::multifrontal;
 }

@@ -7,6 +7,44 @@
 
 namespace mortier {
 
+namespace {
+
+/// Linear solves whose factors are not those of the tangent, or rounded, each completed.
+class CompletedSolves {
+ public:
+  explicit CompletedSolves(StepSystem& system) : completes_(system.completes()) {}
+  [[nodiscard]] bool completes() const { return completes_; }
+
+  /// With the factors that there are, where that leads to the solution of the linear solve soon, else with new
+  /// ones. \returns false where there is none; `outcome` then has the reason.
+  bool solve(const StepSystem::Linearised& linearised, const Step& step, Iterate& iterate,
+             StepOutcome& outcome) {
+    constexpr int soon = 8;
+    constexpr double roughly = 1e-2;
+    constexpr double finely = 1e-10;
+    constexpr double last = 1e-4;  // residual from which on the next linear solve may be the solution
+    const double residual = linearised.residual();
+    const double part = residual < last ? finely : std::min(0.1 * residual, roughly);
+    const Iterate before = iterate;
+    if (std::exchange(factorised_, true)) {
+      StepOutcome tried;
+      const StepSystem::Factorised older = linearised.keepFactors(true);
+      if (older.solve(step, iterate, tried) && older.complete(step, before, part, soon, iterate)) return true;
+      iterate = before;
+    }
+    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+    if (!factorised || !factorised->solve(step, iterate, outcome)) return false;
+    factorised->complete(step, before, part, soon, iterate);
+    return true;
+  }
+
+ private:
+  bool completes_;
+  bool factorised_ = false;
+};
+
+}  // namespace
+
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate) {
   // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
@@ -19,12 +57,15 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   // What single precision leaves falls with each solve, until it is rounding.
   constexpr double falls = 0.25;
   constexpr double rounded = 1e-15;
+  constexpr double balanced = 1e-13;  // by solves that are completed
   const std::vector<Body>& bodies = system.model().bodies;
   bool polish = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.axisymmetric(); });
   int outOfBalance = 0;
   int corrections = 0;
   double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
+  CompletedSolves solves(system);
+  const bool completes = limits.shortens && solves.completes();
   prescribe(system.model(), step, iterate);
   StepSystem::Linearised linearised =
       system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
@@ -41,12 +82,16 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       return outcome;
     }
     ++outcome.iterations;
-    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
     const bool shortens = limits.shortens && outcome.iterations > 1;  // from where contact is solved
     const Iterate before = shortens ? iterate : Iterate{};
     const std::vector<Matrix> stressBefore =
-        shortens ? stressesOnLaw(linearised, iterate) : std::vector<Matrix>{};
-    if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
+        shortens ? stressesOnLaw(linearised, iterate.bodies.size()) : std::vector<Matrix>{};
+    if (completes) {
+      if (!solves.solve(linearised, step, iterate, outcome)) return outcome;
+    } else {
+      const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+      if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
+    }
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
     if (shortens && linearised.residual() > limits.tolerance)
       linearised = shortened(system, step, weight, stressBefore, before, linearised, iterate);
@@ -61,7 +106,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
         linearised = system.linearise(step, iterate, weight, limits.anticipate);
     }
     const double lastBalance = std::exchange(balance, certificate.forceBalance);
-    if (system.inSinglePrecision() && balance > rounded && !(balance > falls * lastBalance)) {
+    const bool falling = !(balance > falls * lastBalance);
+    if ((completes ? balance > balanced : system.inSinglePrecision() && balance > rounded) && falling) {
       ++corrections;
       continue;
     }
@@ -98,14 +144,9 @@ std::optional<Certificate> corrected(StepSystem& system, const StepSystem::Linea
   return certificate;
 }
 
-std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, const Iterate& iterate) {
+std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, size_t bodies) {
   std::vector<Matrix> stresses;
-  for (size_t b = 0; b < iterate.bodies.size(); ++b) {
-    const Linearisation& law = linearised.law(static_cast<int>(b));
-    stresses.push_back(law.predictor);
-    for (Eigen::Index i = 0; i < stresses[b].cols(); ++i)
-      stresses[b].col(i) += stressOf(law, iterate.bodies[b].strain.col(i), static_cast<int>(i));
-  }
+  for (size_t b = 0; b < bodies; ++b) stresses.push_back(linearised.law(static_cast<int>(b)).predictor);
   return stresses;
 }
 
@@ -134,7 +175,7 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
   double high = 1;
   double length = 1;
   for (int i = 0; i < most; ++i) {
-    const std::vector<Matrix> stress = stressesOnLaw(linearised, iterate);
+    const std::vector<Matrix> stress = stressesOnLaw(linearised, iterate.bodies.size());
     if (i > 0)
       for (size_t b = 0; b < stress.size(); ++b) iterate.bodies[b].stress = stress[b];
     const double here = slope(stress);
@@ -149,7 +190,7 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
     for (size_t k = 0; k < end.contactForce.size(); ++k)
       iterate.contactForce[k] =
           before.contactForce[k] + length * (end.contactForce[k] - before.contactForce[k]);
-    linearised = system.linearise(step, iterate, weight, false);
+    linearised = system.linearise(step, iterate, weight, true);
   }
   return linearised;
 }

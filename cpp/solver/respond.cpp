@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <algorithm>
+#include <optional>
 
 #include "base/parallel.h"
 #include "solver/friction_sets.h"
@@ -10,37 +11,50 @@ namespace {
 
 /// The linear problem of (contact) when the sets are given: s = 0 on closed conditions, dp = 0 off them, the
 /// balance G' dp = `balance`, as stresses do no work on rigid motions.
-/// \param adjoint  the transposed equations: t of slipping nodes is 0, and s + (+-mu) v = 0 there
-ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, const Vector& balance,
-                           const FrictionSets& sets, bool adjoint) {
-  constexpr double regularising = 1e-12;  // where conditions or motions are redundant
-  ContactSolution solution;
-  solution.change = Vector::Zero(slack.size());
-  solution.rigid = Vector::Zero(problem.G.cols());
-  FrictionWork work;
-  const FrictionSystem contact(problem, slack, {}, work);
-  const HeldConditions held = contact.heldOn(sets);
-  if (held.rows.empty()) return solution;
-  const auto n = static_cast<Eigen::Index>(held.rows.size());
-  const double compliance = problem.W.diagonal()(held.rows).cwiseAbs().maxCoeff();
-  Matrix system = contact.matrix(held, 1, regularising * compliance, regularising / compliance);
-  Vector right = Vector::Zero(system.rows());
-  right.head(n) = -slack(held.rows);
-  right.tail(balance.size()) = balance;
-  if (adjoint) {
+class ClosedContact {
+ public:
+  /// \param adjoint  the transposed equations: t of slipping nodes is 0, and s + (+-mu) v = 0 there
+  ClosedContact(const ContactProblem& problem, const FrictionSets& sets, bool adjoint)
+      : problem_(problem), adjoint_(adjoint) {
+    constexpr double regularising = 1e-12;  // where conditions or motions are redundant
+    FrictionWork work;
+    const Vector none = Vector::Zero(problem.W.rows());
+    const FrictionSystem contact(problem, none, {}, work);
+    held_ = contact.heldOn(sets);
+    if (held_.rows.empty()) return;
+    const double compliance = problem.W.diagonal()(held_.rows).cwiseAbs().maxCoeff();
+    system_ = contact.matrix(held_, 1, regularising * compliance, regularising / compliance);
     // With -z for z the matrix has G below and to the right with the signs exchanged.
-    for (const auto& [row, leader, part] : held.followers) right[leader] -= part * slack[row];
-    right.tail(balance.size()) *= -1;
-    system.transposeInPlace();
+    if (adjoint) system_.transposeInPlace();
+    factor_.emplace(system_);
   }
-  const Eigen::PartialPivLU<Eigen::Ref<Matrix>> factor(system);  // in place: it may be large
-  const Vector x = factor.solve(right);
-  solution.change(held.rows) = x.head(n);
-  solution.rigid = (adjoint ? -1 : 1) * x.tail(problem.G.cols());
-  for (const auto& [row, leader, part] : held.followers)
-    if (!adjoint) solution.change[row] = part * x[leader];
-  return solution;
-}
+
+  [[nodiscard]] ContactSolution solve(const Vector& slack, const Vector& balance) const {
+    ContactSolution solution;
+    solution.change = Vector::Zero(slack.size());
+    solution.rigid = Vector::Zero(problem_.G.cols());
+    if (!factor_) return solution;
+    const auto n = static_cast<Eigen::Index>(held_.rows.size());
+    Vector right = Vector::Zero(system_.rows());
+    right.head(n) = -slack(held_.rows);
+    right.tail(balance.size()) = (adjoint_ ? -1 : 1) * balance;
+    for (const auto& [row, leader, part] : held_.followers)
+      if (adjoint_) right[leader] -= part * slack[row];
+    const Vector x = factor_->solve(right);
+    solution.change(held_.rows) = x.head(n);
+    solution.rigid = (adjoint_ ? -1 : 1) * x.tail(problem_.G.cols());
+    for (const auto& [row, leader, part] : held_.followers)
+      if (!adjoint_) solution.change[row] = part * x[leader];
+    return solution;
+  }
+
+ private:
+  const ContactProblem& problem_;
+  bool adjoint_;
+  HeldConditions held_;
+  Matrix system_;
+  std::optional<Eigen::PartialPivLU<Eigen::Ref<Matrix>>> factor_;  ///< in place: it may be large
+};
 
 }  // namespace
 
@@ -77,7 +91,7 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
         balance.segment(system_->firstMotion_[b], dofs.R.cols()) =
             dofs.rigidForce(model, static_cast<int>(b), to.force[b]);
     }
-    contact = holdClosed(system_->contact_, slack, balance, joinedSets(on), to.adjoint);
+    contact = ClosedContact(system_->contact_, joinedSets(on), to.adjoint).solve(slack, balance);
   }
   system_->expandBodies(contact, [&](int b, const Vector& displacement) {
     responses[b].displacement = displacement;
@@ -86,6 +100,80 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
     });
   });
   return responses;
+}
+
+// With P the solve on the closed contacts with the factors at hand, which keeps them closed, this is the
+// method of conjugate gradients projected on their motions (Gould, Hribar and Nocedal 2001): what contact
+// carries of a residual is taken from it, and so are the digits that would be lost beside it.
+bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, double part, int most,
+                                      Iterate& iterate) const {
+  constexpr double rounding = 1e-14;  // of the largest force
+  const Model& model = system_->model_;
+  std::vector<CondensedBody>& bodies = system_->bodies_;
+  const size_t count = bodies.size();
+  std::vector<Vector> residual(count);  // by dofs
+  std::vector<Vector> motion(count);
+  std::vector<Vector> along(count);
+  std::vector<Matrix> stress(count);  // H^-1 B along
+  const ClosedContact contact(system_->contact_, joinedSets(iterate), false);
+  const auto take = [&](const std::vector<Vector>& p) {
+    for (size_t k = 0; k < model.interfaces.size(); ++k) {
+      const ContactPair& pair = model.interfaces[k].pair();
+      model.interfaces[k].subtractForces(p[k], residual[pair.nonmortar.body], residual[pair.mortar.body]);
+    }
+  };
+  const auto dot = [&](const std::vector<Vector>& x, const std::vector<Vector>& y) {
+    double sum = 0;
+    for (size_t b = 0; b < count; ++b) sum += x[b].dot(y[b]);
+    return sum;
+  };
+  const auto stressAlong = [&](const std::vector<Vector>& d, int b) {
+    const Linearisation& law = bodies[b].law();
+    stress[b].setZero(law.predictor.rows(), law.predictor.cols());
+    forEachBlock(model.bodies[b].points(), system_->threads_,
+                 [&](int begin, int end) { model.bodies[b].addStressOf(d[b], law, stress[b], begin, end); });
+    return model.bodies[b].internalForce(stress[b]);
+  };
+  std::vector<Vector> forceAlong(count);
+  std::vector<double> forces(count);
+  system_->forEachBody([&](int b) {
+    const BodyIterate& body = iterate.bodies[b];
+    residual[b] = step.loads[b] - model.bodies[b].internalForce(body.stress);
+    forces[b] = model.bodies[b].largestForce(body.stress);
+    motion[b] = body.increment.minus(before.bodies[b].increment);
+    forceAlong[b] = stressAlong(motion, b);
+  });
+  take(iterate.contactForce);
+  const double enough = part * part * dot(motion, forceAlong);  // of the energy of the solve
+  const double noise = rounding * *std::max_element(forces.begin(), forces.end());
+  double last = 0;
+  for (int iteration = 0;; ++iteration) {
+    double largest = 0;
+    for (size_t b = 0; b < count; ++b)
+      largest = std::max(largest, model.bodies[b].gather(residual[b]).lpNorm<Eigen::Infinity>());
+    Vector slack = Vector::Zero(system_->conditions());
+    const std::vector<Vector> condensed = system_->condenseBodies(residual);
+    for (size_t b = 0; b < count; ++b)
+      if (const ContactDofs& dofs = bodies[b].contact(); !dofs.none()) slack -= dofs.C * condensed[b];
+    const ContactSolution closed = contact.solve(slack, Vector::Zero(system_->contact_.G.cols()));
+    system_->expandBodies(closed, [&](int b, const Vector& d) { motion[b] = d; });
+    const std::vector<Vector> change = system_->parted(closed.change);
+    take(change);
+    for (size_t k = 0; k < change.size(); ++k) iterate.contactForce[k] += change[k];
+    const double size = dot(motion, residual);
+    if (!(size > enough) || largest <= noise) return size <= enough || largest <= noise;
+    if (iteration == most) return false;
+    for (size_t b = 0; b < count; ++b)
+      along[b] = iteration == 0 ? motion[b] : Vector(motion[b] + size / last * along[b]);
+    last = size;
+    system_->forEachBody([&](int b) { forceAlong[b] = stressAlong(along, b); });
+    const double length = size / dot(along, forceAlong);
+    system_->forEachBody([&](int b) {
+      residual[b] -= length * forceAlong[b];
+      iterate.bodies[b].increment += length * along[b];
+      iterate.bodies[b].stress += length * stress[b];
+    });
+  }
 }
 
 std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, const Iterate& on,
@@ -103,7 +191,7 @@ std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, cons
   const auto stale = [](const CondensedBody& body) { return body.stale(); };
   // Rows that follow the bodies have been taken anew since the last linear solve.
   const bool otherRows = !sparse() && contact_.W.rows() != conditions();
-  if (otherRows || std::any_of(bodies_.begin(), bodies_.end(), stale))
+  if (otherRows || olderFactors_ || std::any_of(bodies_.begin(), bodies_.end(), stale))
     static_cast<void>(last.factorise(again));
   return last.keepFactors().respond({error, slip}, on);
 }

@@ -30,19 +30,23 @@ const char* nameOf(Rung rung) {
 
 namespace {
 
+/// Whether a central path leads to the law, on which few iterations depend on its stiffness.
+bool hasPath(const Material& material) {
+  const std::vector<LawDescription> laws = material.laws();
+  return std::any_of(laws.begin(), laws.end(), [](const LawDescription& law) { return law.projected; });
+}
+
+/// Whether a law that flows is linearised where the strain leads in every method.
+bool alwaysMaps(const Body& body) {
+  const Material& material = body.material();
+  return !material.linear() && material.usesReturnMapping() && !hasPath(material);
+}
+
 /// Whether a body flows by a law without a yield stress, or by one that is linearised where the strain leads:
 /// Newton's method may have a long way to come down from elasticity, and the walks, which begin anew, have
 /// none that is shorter. Elsewhere it has corners at which it could turn in circles.
-bool comesDownFromFar(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-    const Material& material = body.material();
-    return !material.linear() && (material.stressScale() == 0 || material.usesReturnMapping());
-  });
-}
-
-bool anyReturnMapping(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.material().usesReturnMapping(); });
+bool comesDownFromFar(const Body& body) {
+  return (!body.material().linear() && body.material().stressScale() == 0) || alwaysMaps(body);
 }
 
 }  // namespace
@@ -51,22 +55,34 @@ bool anyReturnMapping(const Model& model) {
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  const int plainIterations = comesDownFromFar(system.model()) ? 25 : 7;
   constexpr int firstWalk = 60;
   constexpr int usualIterations = 300;
   constexpr int secondWalk = 100;
   constexpr int longWalk = 1500;
+  constexpr int descent = 60;
   const SolverOptions& options = system.options();
   const Step step = system.step(state0, data);
+  const std::vector<Body>& bodies = system.model().bodies;
+  const auto linear = [](const Body& body) { return body.material().linear(); };
+  const bool allLinear = std::all_of(bodies.begin(), bodies.end(), linear);
+  const bool unique = system.uniqueSolutions();
+  // A line search leads down to the one solution. In the plane, where factors cost little, it comes last, and
+  // not where there is a path.
+  const auto maps = [](const Body& body) { return body.material().usesReturnMapping(); };
+  const bool searches = !allLinear && system.completes() && std::all_of(bodies.begin(), bodies.end(), maps);
+  const bool far = std::any_of(bodies.begin(), bodies.end(), comesDownFromFar);
+  const int plainIterations = searches ? descent : far ? 25 : 7;
   if (options.reduce && data.startSolved)
     if (StepOutcome outcome = rest(system, step, guess); outcome.converged()) return outcome;
   if (options.method == Method::penaltyDuality) return penaltyDuality(system, step, guess);
 
   NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};
-  plain.turning = true;
+  plain.turning = !searches;
+  plain.shortens = plain.anticipate = searches;
   // Before the first solve the strain is that of supports which move alone: a law that is linearised there
   // would flow beside them.
-  plain.elasticFirst = anyReturnMapping(system.model()) && !flows(system.model(), state0);
+  plain.elasticFirst =
+      (searches || std::any_of(bodies.begin(), bodies.end(), alwaysMaps)) && !flows(system.model(), state0);
   StepOutcome total = newton(system, step, data.weight, plain, guess);
   const auto tryMethod = [&](Rung rung, StepOutcome next) {
     total.follow(std::move(next));
@@ -88,13 +104,9 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
     if (total.converged()) guess = std::move(unloaded);
   }
   // The other methods change the law, which is linear already.
-  const std::vector<Body>& bodies = system.model().bodies;
-  const auto linear = [](const Body& body) { return body.material().linear(); };
-  if (effort == Effort::little || std::all_of(bodies.begin(), bodies.end(), linear)) return total;
-  const bool unique = system.uniqueSolutions();
-  // A way down to the one solution; no other viscosity shows a shorter one.
+  if (effort == Effort::little || allLinear) return total;
   const bool descends = unique && std::all_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-                          return linear(body) || body.material().usesReturnMapping();
+                          return linear(body) || alwaysMaps(body);
                         });
   if (unsolved(usualIterations) && descends) {
     NewtonLimits searching{iterationsLeft(usualIterations), options.tolerance};

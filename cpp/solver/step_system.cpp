@@ -173,6 +173,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   std::vector<CondensedBody>& bodies = system_->bodies_;
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
+  system_->olderFactors_ = false;
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
   for (size_t b = 0; b < bodies.size() && system_->model_.inParts(); ++b) bodies[b].join(factors[b]);
   // After a restart there is neither yet, though factors were counted before it.
@@ -205,7 +206,8 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   return keepFactors();
 }
 
-StepSystem::Factorised StepSystem::Linearised::keepFactors() const {
+StepSystem::Factorised StepSystem::Linearised::keepFactors(bool older) const {
+  system_->olderFactors_ = system_->olderFactors_ || older;
   return {*system_, Key{}};
 }
 
@@ -309,6 +311,14 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     row += interface.rows();
   }
   return true;
+}
+
+bool StepSystem::completes() const {
+  const bool inSpace = std::any_of(model_.bodies.begin(), model_.bodies.end(),
+                                   [](const Body& body) { return body.dimension() == 3; });
+  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts() &&
+         std::none_of(model_.interfaces.begin(), model_.interfaces.end(),
+                      [](const ContactInterface& interface) { return interface.yields(); });
 }
 
 bool StepSystem::inSinglePrecision() const {

@@ -121,6 +121,8 @@ class StepSystem {
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
   [[nodiscard]] bool hasFriction() const { return !contact_.along.node.empty(); }
+  /// Whether linear solves can be completed (Factorised::complete) and other factors cost much more than that.
+  [[nodiscard]] bool completes() const;
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -190,6 +192,7 @@ class StepSystem {
   };
   std::array<Loads, 2> loads_;
   size_t latestLoads_ = 0;
+  bool olderFactors_ = false;  ///< in use, not those of the last linearisation
   bool uniqueSolutions_ = true;
 };
 
@@ -203,7 +206,8 @@ class StepSystem::Linearised {
   /// Empty where a tangent is singular; `outcome` then has the reason.
   [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
   /// Takes the factors of the linearisation before, which had the same tangent.
-  [[nodiscard]] Factorised keepFactors() const;
+  /// \param older  it had another one: linear solves have to be completed
+  [[nodiscard]] Factorised keepFactors(bool older = false) const;
 
  private:
   StepSystem* system_;
@@ -216,6 +220,11 @@ class StepSystem::Factorised {
   /// The linear solve: condenses, solves the contact problem and moves the iterate to its solution.
   /// \returns false where there is none; `outcome` then has the reason.
   bool solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const;
+  /// What the factors, of another tangent or rounded, leave of the equilibrium of a linear solve, by conjugate
+  /// gradients on the contacts that are closed.
+  /// \param before  where the solve began  \param part  what may be left, over the solve, in energy
+  /// \returns whether `most` iterations were enough
+  bool complete(const Step& step, const Iterate& before, double part, int most, Iterate& iterate) const;
   /// Condenses the forces that are out of balance to the contact conditions.
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
