@@ -104,7 +104,8 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
 
 // With P the solve on the closed contacts with the factors at hand, which keeps them closed, this is the
 // method of conjugate gradients projected on their motions (Gould, Hribar and Nocedal 2001): what contact
-// carries of a residual is taken from it, and so are the digits that would be lost beside it.
+// carries of a residual is taken from it, and so are the digits that would be lost beside it. Where conditions
+// yield, C d = S dp, forces move with the motions (Dollar, Gould, Schilders and Wathen 2006).
 bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, double part, int most,
                                       Iterate& iterate) const {
   constexpr double rounding = 1e-14;  // of the largest force
@@ -134,6 +135,9 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
                  [&](int begin, int end) { model.bodies[b].addStressOf(d[b], law, stress[b], begin, end); });
     return model.bodies[b].internalForce(stress[b]);
   };
+  const bool yields = std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                                  [](const ContactInterface& interface) { return interface.yields(); });
+  std::vector<Vector> contactAlong;
   std::vector<Vector> forceAlong(count);
   std::vector<double> forces(count);
   system_->forEachBody([&](int b) {
@@ -157,17 +161,30 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
       if (const ContactDofs& dofs = bodies[b].contact(); !dofs.none()) slack -= dofs.C * condensed[b];
     const ContactSolution closed = contact.solve(slack, Vector::Zero(system_->contact_.G.cols()));
     system_->expandBodies(closed, [&](int b, const Vector& d) { motion[b] = d; });
-    const std::vector<Vector> change = system_->parted(closed.change);
-    take(change);
-    for (size_t k = 0; k < change.size(); ++k) iterate.contactForce[k] += change[k];
+    std::vector<Vector> change = system_->parted(closed.change);
+    const auto move = [&](const std::vector<Vector>& by) {
+      take(by);
+      for (size_t k = 0; k < by.size(); ++k) iterate.contactForce[k] += by[k];
+    };
+    if (!yields) move(change);
     const double size = dot(motion, residual);
     if (!(size > enough) || largest <= noise) return size <= enough || largest <= noise;
     if (iteration == most) return false;
     for (size_t b = 0; b < count; ++b)
       along[b] = iteration == 0 ? motion[b] : Vector(motion[b] + size / last * along[b]);
+    for (size_t k = 0; k < change.size() && iteration > 0; ++k) change[k] += size / last * contactAlong[k];
+    contactAlong = std::move(change);
     last = size;
     system_->forEachBody([&](int b) { forceAlong[b] = stressAlong(along, b); });
-    const double length = size / dot(along, forceAlong);
+    double curvature = dot(along, forceAlong);
+    for (size_t k = 0; k < contactAlong.size() && yields; ++k)
+      curvature += contactAlong[k].dot(model.interfaces[k].yielded(contactAlong[k]));
+    const double length = size / curvature;
+    if (yields) {
+      for (Vector& each : contactAlong) each *= length;
+      move(contactAlong);
+      for (Vector& each : contactAlong) each /= length;
+    }
     system_->forEachBody([&](int b) {
       residual[b] -= length * forceAlong[b];
       iterate.bodies[b].increment += length * along[b];

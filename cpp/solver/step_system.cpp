@@ -316,9 +316,7 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
 bool StepSystem::completes() const {
   const bool inSpace = std::any_of(model_.bodies.begin(), model_.bodies.end(),
                                    [](const Body& body) { return body.dimension() == 3; });
-  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts() &&
-         std::none_of(model_.interfaces.begin(), model_.interfaces.end(),
-                      [](const ContactInterface& interface) { return interface.yields(); });
+  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts();
 }
 
 bool StepSystem::inSinglePrecision() const {

@@ -299,7 +299,8 @@ TEST(RefineSpace, pointsOfTwoSurfacesAreOnBoth) {
         n[surface] = 0;
         n.normalize();
         SpacePoint at = (surface == 0 ? 0.6 : 1) * n;
-        at[surface] = x[surface] + 1e-3 * (x - at).norm();  // nearest but for a part of the way
+        at[surface] = x[surface];
+        at[surface] += 1e-3 * (x - at).norm();  // nearest but for a part of the way
         if (surface == 1) at = {x.x(), x.y(), 0.6};
         if (surface == 1) n = {0, 0, 1};
         result.emplace_back(SurfaceFoot{at, n});
