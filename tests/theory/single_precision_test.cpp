@@ -73,7 +73,7 @@ TEST(SinglePrecision, servesBodiesThatFlow) {
   const Result exact = solve(model, LinearEngine::multifrontal);
   const Result corrected = solve(model, LinearEngine::single);
   expectEqual(model, exact, corrected, 1e-8);  // both stop at a residual of 1e-10
-  EXPECT_GT(corrected.report.iterations, exact.report.iterations);
+  EXPECT_GE(corrected.report.iterations, exact.report.iterations);  // linear solves are completed
 }
 
 // A bar so slender that single precision has nothing left of its stiffness against bending.
