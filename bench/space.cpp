@@ -4,6 +4,9 @@
 //   build/bench/space --coupling CELLS ...
 // And a paraboloid pressed on a block (Hertz), then further by a tenth and by three tenths: active sets.
 //   build/bench/space --sets CELLS ...
+// And a punch on a block, a quarter of both flowing (Perzyna), in two and in five steps, beside the same of
+// elastic bodies: processor time, iterations and factors.
+//   build/bench/space --flow CELLS ...
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,6 +16,7 @@
 #include <vector>
 
 #include "material/deviatoric.h"
+#include "material/perzyna.h"
 #include "mesh/shape.h"
 #include "solver/step_system.h"
 #include "time/march.h"
@@ -112,6 +116,38 @@ void countSets(int cells) {
   std::printf("\n");
 }
 
+void measureFlow(int cells) {
+  const Elasticity elasticity{1000, 0.3};
+  double elastic = 0;
+  for (const int steps : {0, 2, 5}) {  // 0: elastic, in two
+    const auto material = steps == 0 ? elasticMaterial(elasticity, Plane::none)
+                                     : perzynaMaterial(elasticity, {10, 1}, Plane::none);
+    const auto heldOn = [](int label, double lowered) {
+      SpaceConditions conditions;
+      for (const int c : {spaceX, spaceY, spaceZ})
+        conditions.displacements.push_back({label, c, [lowered, c](const SpacePoint&, double t) {
+                                              return c == spaceZ ? -lowered * t : 0.0;
+                                            }});
+      return conditions;
+    };
+    const double start = processorTime();
+    Model model;
+    model.bodies.emplace_back("punch", cuboidMesh({{0.2, 0.2, 0}, {0.8, 0.8, 0.6}, {cells, cells, cells}}),
+                              material, heldOn(3, 0.01), 2);
+    model.bodies.emplace_back("block", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {cells, cells, cells}}), material,
+                              heldOn(1, 0), 2);
+    addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
+    State state = initialState(model);
+    const RunReport report = march(model, state, {.end = 1, .steps = steps == 0 ? 2 : steps}, {},
+                                   [](const State&, const StepReport&) {});
+    const double time = processorTime() - start;
+    if (steps == 0) elastic = time;
+    std::printf("%3d %7d + %d unknowns, %s, %d steps: %.2f s (%.1f), %d iterations, %d factors\n", cells,
+                model.bodies[0].freeDofs(), model.bodies[1].freeDofs(), steps == 0 ? "elastic" : "flow",
+                report.steps, time, time / elastic, report.iterations, report.factorisations);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -123,6 +159,11 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "--sets") == 0) {
     std::printf("cells, rows of contact, active sets; processor time [s]\n");
     for (int i = 2; i < argc; ++i) countSets(std::atoi(argv[i]));
+    return 0;
+  }
+  if (argc > 1 && std::strcmp(argv[1], "--flow") == 0) {
+    std::printf("cells, unknowns; processor time [s] (over the elastic one)\n");
+    for (int i = 2; i < argc; ++i) measureFlow(std::atoi(argv[i]));
     return 0;
   }
   std::printf("cells, unknowns of both bodies, rows of contact; wall time [s]\n");

@@ -42,11 +42,6 @@ class VtuFile {
     describe("Float64", name, components, componentNames);
     append(values.data(), values.size() * sizeof(double));
   }
-  /// One that some points do not have: not a number there.
-  void partial(const std::string& name, const std::vector<double>& values) {
-    describe("Float64", name, 1, {});
-    append(values.data(), values.size() * sizeof(double));
-  }
   template <class Integer>
   void integers(const std::string& type, const std::string& name, const std::vector<Integer>& values) {
     describe(type, name, 1, {});
@@ -113,8 +108,9 @@ void writePoints(VtuFile& file, const Body& body, const Vector& displacement, co
   file.open("PointData", "Vectors=\"displacement\"");
   file.array("displacement", std::move(u), 3);
   if (!contact.gap.empty()) {
-    file.partial("contact_pressure", contact.pressure);
-    file.partial("gap", contact.gap);
+    file.array("contact_pressure", contact.pressure, 1);
+    file.array("gap", contact.gap, 1);
+    file.integers("UInt8", "nonmortar", contact.has);
   }
   file.shut("PointData");
 }
@@ -146,7 +142,7 @@ std::vector<ContactOfNodes> contactOfNodes(const Model& model, const State& stat
     const int b = model.interfaces[k].pair().nonmortar.body;
     ContactOfNodes& of = found[b];
     const std::vector<double> none(model.bodies[b].nodes(), std::numeric_limits<double>::quiet_NaN());
-    if (of.gap.empty()) of = {none, none};
+    if (of.gap.empty()) of = {none, none, {}};
     for (size_t i = 0; i < fields.vertex.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       double& pressure = of.pressure[fields.vertex[i]];
@@ -156,8 +152,15 @@ std::vector<ContactOfNodes> contactOfNodes(const Model& model, const State& stat
     }
   }
   for (size_t b = 0; b < found.size(); ++b)
-    for (std::vector<double>* values : {&found[b].pressure, &found[b].gap})
-      if (!values->empty()) fillMiddles(model.bodies[b], *values);
+    for (std::vector<double>* values : {&found[b].pressure, &found[b].gap}) {
+      if (values->empty()) continue;
+      fillMiddles(model.bodies[b], *values);
+      found[b].has.clear();
+      for (double& value : *values) {
+        found[b].has.push_back(std::isnan(value) ? 0 : 1);
+        if (std::isnan(value)) value = 0;
+      }
+    }
   return found;
 }
 

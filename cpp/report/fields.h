@@ -1,6 +1,7 @@
 // fields.pvd and one .vtu per body and kept step, for ParaView: Float64, raw binary.
 //   points: displacement (x, y, 0 or z) [m]; of bodies with a nonmortar side contact_pressure [Pa] and
-//           gap [m], not a number at nodes that are on none; middles of sides have the mean of both ends
+//           gap [m], nonmortar (1 at nodes that have them, elsewhere they are 0); middles of sides have the
+//           mean of both ends
 //   cells:  stress (s11, s22, s12; in space s11, s22, s33, s12, s23, s13) [Pa], von_mises [Pa],
 //           viscoplastic_strain (e11, e22, e12) [-], viscoplastic (1 where the stress is beyond yield),
 //           region (label of the triangle), error (estimated, of the stress: share of the triangle in the
@@ -9,6 +10,7 @@
 // and stress_at_points (the components at each point, one point after the other) [Pa].
 #pragma once
 
+#include <cstdint>
 #include <future>
 #include <map>
 #include <optional>
@@ -35,6 +37,7 @@ struct KeptFields {
 struct ContactOfNodes {
   std::vector<double> pressure;  ///< [Pa]
   std::vector<double> gap;       ///< [m]
+  std::vector<uint8_t> has;      ///< whether a node has them: 0 stands where it does not
 };
 
 class Fields {

@@ -348,8 +348,8 @@ class Theory(unittest.TestCase):
         self.assertIn("newton(", (solver / "solve_step.cpp").read_text())
         # newton() calls Factorised::solve, which condenses, solves contact and expands.
         solve = (solver / "step_friction.cpp").read_text().partition("Factorised::solve(")[2]
-        iteration = (solver / "newton.cpp").read_text().replace(
-            "factorised->solve(", solve.partition("\n}\n")[0])
+        iteration = "newton(" + (solver / "newton.cpp").read_text().partition("StepOutcome newton(")[2]
+        iteration = iteration.replace("factorised->solve(", solve.partition("\n}\n")[0])
         words = re.findall(r"(\w+)\(", iteration)
         self.assertEqual(list(dict.fromkeys(word for word in words if word in called)), called[1:])
 
