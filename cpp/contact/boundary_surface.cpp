@@ -156,7 +156,8 @@ class Surface {
   }
 
   /// The turn over the length on the way from the middle of a side k across its triangle t, straight on, as
-  /// far as two or three elements of one size reach. Sharp edges reflect it: the surface goes on as its image.
+  /// far as two or three elements of one size reach. Sharp edges reflect it: the surface goes on as its
+  /// image.
   [[nodiscard]] double curvatureBehind(int t, int k) const {
     constexpr double heights = 2.5;
     constexpr int mostSteps = 16;

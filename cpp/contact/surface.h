@@ -45,7 +45,7 @@ struct ContactSurface {
     return sum;
   }
   /// How far a point of the curved surface over l is along n from one that is `apart` from it: where its
-  /// tangent plane meets the line through that. \param apart  from there to the point of the triangle at l [m]
+  /// tangent plane meets the line through that. \param apart  from there to that of the triangle at l [m]
   [[nodiscard]] double distanceAlong(const SpacePoint& n, const SpacePoint& apart, int triangle,
                                      const Eigen::Vector3d& l) const;
   /// Expected error of that [m].

@@ -15,8 +15,8 @@ class CompletedSolves {
   explicit CompletedSolves(StepSystem& system) : completes_(system.completes()) {}
   [[nodiscard]] bool completes() const { return completes_; }
 
-  /// With the factors that there are, where that leads to the solution of the linear solve soon, else with new
-  /// ones. \returns false where there is none; `outcome` then has the reason.
+  /// With the factors that there are, where that leads to the solution of the linear solve soon, else with
+  /// new ones. \returns false where there is none; `outcome` then has the reason.
   bool solve(const StepSystem::Linearised& linearised, const Step& step, Iterate& iterate,
              StepOutcome& outcome) {
     constexpr int soon = 8;

@@ -104,8 +104,8 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
 
 // With P the solve on the closed contacts with the factors at hand, which keeps them closed, this is the
 // method of conjugate gradients projected on their motions (Gould, Hribar and Nocedal 2001): what contact
-// carries of a residual is taken from it, and so are the digits that would be lost beside it. Where conditions
-// yield, C d = S dp, forces move with the motions (Dollar, Gould, Schilders and Wathen 2006).
+// carries of a residual is taken from it, and so are the digits that would be lost beside it. Where
+// conditions yield, C d = S dp, forces move with the motions (Dollar, Gould, Schilders and Wathen 2006).
 bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, double part, int most,
                                       Iterate& iterate) const {
   constexpr double rounding = 1e-14;  // of the largest force

@@ -121,7 +121,7 @@ class StepSystem {
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
   [[nodiscard]] bool hasFriction() const { return !contact_.along.node.empty(); }
-  /// Whether linear solves can be completed (Factorised::complete) and other factors cost much more than that.
+  /// Whether linear solves can be completed (Factorised::complete) and other factors cost much more.
   [[nodiscard]] bool completes() const;
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
@@ -220,8 +220,8 @@ class StepSystem::Factorised {
   /// The linear solve: condenses, solves the contact problem and moves the iterate to its solution.
   /// \returns false where there is none; `outcome` then has the reason.
   bool solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const;
-  /// What the factors, of another tangent or rounded, leave of the equilibrium of a linear solve, by conjugate
-  /// gradients on the contacts that are closed.
+  /// What the factors, of another tangent or rounded, leave of the equilibrium of a linear solve, by
+  /// conjugate gradients on the contacts that are closed.
   /// \param before  where the solve began  \param part  what may be left, over the solve, in energy
   /// \returns whether `most` iterations were enough
   bool complete(const Step& step, const Iterate& before, double part, int most, Iterate& iterate) const;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Contact pressures of curved bodies in space: drawn, against those of the same meshes with the distance given.
+"""Contact pressures of curved bodies in space: as drawn, against those with the distance given.
 
 Pairs of parts drawn with Gmsh: crossed cylinders (radii 1:1, 1:2, 1:5), a pin in a bore, a ball in a cup, a
 cone in a cone, tubes shrunk on each other on other meshes, tubes of one mesh, four ridges on a plane, a torus
@@ -60,7 +60,8 @@ def draw(folder, name, build, size, label):
     # One volume, or two of which the first is nearer to the axis.
     ordered = sorted(volumes, key=lambda x: x[0]**2 + x[1]**2)
     text += [f'Physical Volume("{n}") = {{{volumes[x]}}};' for n, x in zip(("one", "two"), ordered)]
-    text += [f'Physical Surface("{n}") = {{{", ".join(map(str, tags))}}};' for n, tags in sorted(labels.items())]
+    text += [f'Physical Surface("{n}") = {{{", ".join(map(str, tags))}}};'
+             for n, tags in sorted(labels.items())]
     text += ["Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;",
              f'Field[1] = MathEval; Field[1].F = "{size}"; Background Field = 1;', ""]
     (folder / f"{name}.geo").write_text("\n".join(text))
@@ -81,7 +82,8 @@ class Pair:
             draw(folder, name, build, size, label)
             for body in ("one", "two") if name == "both" else (name,):
                 done = subprocess.run([PROGRAM, "mesh", "convert", f"{name}.geo", f"{body}.mesh", "--region",
-                                       body if name == "both" else "one"], cwd=folder, capture_output=True, text=True)
+                                       body if name == "both" else "one"],
+                                      cwd=folder, capture_output=True, text=True)
                 if done.returncode:
                     raise RuntimeError(done.stderr)
 
@@ -120,16 +122,19 @@ def crossed(ratio, scale):
     size = f"{0.015 * scale} + 0.08*Sqrt(x^2 + y^2 + z^2)"
     two = ratio
     return Pair(f"1-sqrt(max(0,1-x^2))+{two}-sqrt(max(0,{two}^2-y^2))",
-                (held(x="ux = 0", y="uy = 0", far="uz = -0.01"), held(x="ux = 0", y="uy = 0", far="uz = 0.01")),
+                (held(x="ux = 0", y="uy = 0", far="uz = -0.01"),
+                 held(x="ux = 0", y="uy = 0", far="uz = 0.01")),
                 one=(lambda: common(gmsh.model.occ.addCylinder(0, 0, 1, 0, 3, 0, 1), 0, 0, 0, 1, 3, 1), size,
                      labelling(curved, x=(0, 0), y=(1, 0), far=(2, 1))),
-                two=(lambda: common(gmsh.model.occ.addCylinder(0, 0, -two, 3, 0, 0, two), 0, 0, -two, 3, two, two),
+                two=(lambda: common(gmsh.model.occ.addCylinder(0, 0, -two, 3, 0, 0, two),
+                                    0, 0, -two, 3, two, two),
                      size, labelling(curved, x=(0, 0), y=(1, 0), far=(2, -two))))
 
 
 def between(along, across, apart):
     """From a circle or sphere of radius 1 to one about it, `apart` larger, which it touches below."""
-    moved = f"(-{apart}*({along}+{apart})/sqrt({across}+({along}+{apart})^2))"  # of the centre, along the normal
+    # Of the centre, along the normal.
+    moved = f"(-{apart}*({along}+{apart})/sqrt({across}+({along}+{apart})^2))"
     return f"-1-{moved}+sqrt({moved}^2-{apart}^2+{1 + apart}^2)"
 
 
@@ -143,7 +148,8 @@ def pin(scale):
     return Pair(between("y", "x^2", 0.02),
                 (held(x="ux = 0", start="uz = 0", end="uz = 0", far="uy = -0.02"),
                  held(x="ux = 0", start="uz = 0", end="uz = 0", far="uy = 0")),
-                one=(lambda: common(gmsh.model.occ.addCylinder(0, -0.02, 0, 0, 0, thick, 1), 0, -2, 0, 2, 1.98, thick),
+                one=(lambda: common(gmsh.model.occ.addCylinder(0, -0.02, 0, 0, 0, thick, 1),
+                                    0, -2, 0, 2, 1.98, thick),
                      size, labelling(curved, x=(0, 0), start=(2, 0), end=(2, thick), far=(1, -0.02))),
                 two=(block, size, labelling(curved, x=(0, 0), start=(2, 0), end=(2, thick), far=(1, -2))))
 
@@ -168,16 +174,18 @@ def cone(scale):
         common(gmsh.model.occ.addCone(0, 0, 0, 0, 0, 1, 0.7, 1), 0, 0, 0, 2, 2, 1)
 
     def socket():
-        without([(3, box(0, 0, -0.2, 1.8, 1.8, 1))], [gmsh.model.occ.addCone(0, 0, -0.2, 0, 0, 1.4, 0.64, 1.06)])
+        without([(3, box(0, 0, -0.2, 1.8, 1.8, 1))],
+                [gmsh.model.occ.addCone(0, 0, -0.2, 0, 0, 1.4, 0.64, 1.06)])
 
-    return Pair("0", (held(x="ux = 0", y="uy = 0", far="uz = -0.01"), held(x="ux = 0", y="uy = 0", far="uz = 0")),
+    return Pair("0", (held(x="ux = 0", y="uy = 0", far="uz = -0.01"),
+                      held(x="ux = 0", y="uy = 0", far="uz = 0")),
                 one=(plug, size, labelling(curved, x=(0, 0), y=(1, 0), far=(2, 1))),
                 two=(socket, f"1.2*{size}", labelling(curved, x=(0, 0), y=(1, 0), far=(2, -0.2))))
 
 
 def tube(inner, outer, thick):
-    without([(3, common(gmsh.model.occ.addCylinder(0, 0, 0, 0, 0, thick, outer), 0, 0, 0, outer, outer, thick)[0][1])],
-            [gmsh.model.occ.addCylinder(0, 0, 0, 0, 0, thick, inner)])
+    whole = common(gmsh.model.occ.addCylinder(0, 0, 0, 0, 0, thick, outer), 0, 0, 0, outer, outer, thick)
+    without(whole, [gmsh.model.occ.addCylinder(0, 0, 0, 0, 0, thick, inner)])
 
 
 def radius(value):
@@ -211,7 +219,7 @@ def one_mesh(scale):
     supports = held(x="ux = 0", y="uy = 0", start="uz = 0", end="uz = 0")
     return Pair("0", (supports + ', { label = "bore", pressure = 0.001 }', supports),
                 both=(both, str(0.3 * scale),
-                      lambda kind, lower, upper: "bore" if bore(kind, lower, upper) else names(kind, lower, upper)))
+                      lambda *surface: "bore" if bore(*surface) else names(*surface)))
 
 
 def ridges(scale):
@@ -252,8 +260,8 @@ PAIRS = {"crossed-1": lambda s: crossed(1, s), "crossed-2": lambda s: crossed(2,
 
 def pressures(folder, text, name):
     (folder / f"{name}.toml").write_text(text)
-    done = subprocess.run([PROGRAM, "run", f"{name}.toml", "--quiet", "--out", name], cwd=folder, capture_output=True,
-                          text=True)
+    done = subprocess.run([PROGRAM, "run", f"{name}.toml", "--quiet", "--out", name], cwd=folder,
+                          capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(done.stderr)
     with open(folder / name / "contact.csv", encoding="utf-8") as file:
@@ -263,7 +271,7 @@ def pressures(folder, text, name):
 
 
 def at_nodes(exact, found):
-    """Pressures at the nodes nearest to those of the other run, which are the same but for digits of a file."""
+    """Pressures at the nodes nearest to those of the other run: the same but for digits of a file."""
     return np.array([found[1][np.argmin(((found[0] - x)**2).sum(1))] for x in exact[0]])
 
 
@@ -287,7 +295,8 @@ def main():
                 exact = pressures(folder, text.replace("GAP", f'gap = "{pair.gap}"'), "exact")
                 largest = exact[1].max()
                 pressed = np.count_nonzero(exact[1] > 0)
-                line = f"{name} degree {degree}: {len(exact[1])} nodes, {pressed} pressed, largest {largest:.4g}"
+                line = f"{name} degree {degree}: {len(exact[1])} nodes, {pressed} pressed, "
+                line += f"largest {largest:.4g}"
                 for kind, within in WITHIN.items():
                     found = pressures(folder, pair.scene(kind, degree).replace("GAP", ""), kind)
                     off = np.abs(at_nodes(exact, found) - exact[1]).max() / largest

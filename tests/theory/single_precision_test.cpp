@@ -72,7 +72,7 @@ TEST(SinglePrecision, servesBodiesThatFlow) {
   const Model model = pressedBlocks(true);
   const Result exact = solve(model, LinearEngine::multifrontal);
   const Result corrected = solve(model, LinearEngine::single);
-  expectEqual(model, exact, corrected, 1e-8);  // both stop at a residual of 1e-10
+  expectEqual(model, exact, corrected, 1e-8);                       // both stop at a residual of 1e-10
   EXPECT_GE(corrected.report.iterations, exact.report.iterations);  // linear solves are completed
 }
 

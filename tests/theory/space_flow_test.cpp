@@ -1,5 +1,5 @@
-// Bodies that flow in space: Newton's method with a line search, linear solves with older factors completed by
-// conjugate gradients, whether or not the conditions of contact yield.
+// Bodies that flow in space: Newton's method with a line search, linear solves with older factors completed
+// by conjugate gradients, whether or not the conditions of contact yield.
 #include <gtest/gtest.h>
 
 #include <iostream>
