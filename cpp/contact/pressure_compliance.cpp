@@ -119,7 +119,8 @@ Eigen::SparseMatrix<double> linearFits(Eigen::Index n, const std::vector<NearRow
     atRow.emplace_back(factors.compute(each).solve(Eigen::Vector3d::UnitX()));
   Triplets entries;
   for (const NearRow& pair : near)
-    entries.emplace_back(pair.row, pair.other, pair.weight * termsOf(pair).dot(atRow[pair.row]));
+    if (pair.weight > 0)
+      entries.emplace_back(pair.row, pair.other, pair.weight * termsOf(pair).dot(atRow[pair.row]));
   return assembled(n, n, entries);
 }
 
