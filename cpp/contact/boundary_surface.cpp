@@ -156,8 +156,7 @@ class Surface {
   }
 
   /// The turn over the length on the way from the middle of a side k across its triangle t, straight on, as
-  /// far as two or three elements of one size reach. Sharp edges reflect it: the surface goes on as its
-  /// image.
+  /// far as two or three elements of one size reach. At a sharp edge the way is reflected.
   [[nodiscard]] double curvatureBehind(int t, int k) const {
     constexpr double heights = 2.5;
     constexpr int mostSteps = 16;

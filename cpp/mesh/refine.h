@@ -91,8 +91,9 @@ using RefinedTetrahedra = BisectedMesh<TetrahedronMesh, CurvedFaces>;
 /// Cuts the tetrahedra that are marked, and as many more as it takes. A new vertex of the boundary is put
 /// onto the arc over its edge that is perpendicular to the normals at both ends, or, where two parts meet in
 /// an edge, to those of both, and from there onto the surfaces of the geometry where these are known. Where a
-/// half would have less than a quarter of its volume, vertices inside the body give way; where that is not
-/// enough the vertex stays on the chord. One on an arc that is not of a geometry goes as far back as it must.
+/// half of a tetrahedron would have less than a quarter of the volume that it has with the vertex on the
+/// chord, vertices inside the body are moved; where that does not suffice the vertex stays on the chord. A
+/// vertex on an arc that is not of a geometry is moved back towards the chord until the halves keep that.
 /// Where there is no normal at one end the arc is symmetric. Regions, labels, names and what is known of
 /// boundaryNormals go on.
 /// \param marked  by tetrahedron
