@@ -80,7 +80,7 @@ std::vector<TriangleMesh> graded(int triangles) {
     const double ratio = static_cast<double>(now[0].triangles.size() + now[1].triangles.size()) / triangles;
     if (ratio > 0.8) return now;
     const Model model = modelOn(now, CouplingKind::mortar);
-    CurrentSpaceError current(model);
+    CurrentMeshError current(model);
     ErrorHistory history(model, current);
     State state = initialState(model);
     static_cast<void>(

@@ -1,6 +1,5 @@
 // What the rate of a law and its 4 x 4 derivatives by the stress cost a point: types in C++ and expressions,
-// by Eigen's AutoDiffScalar, beside the other libraries of Debian that the compiler finds and differences of
-// muParser.
+// by Eigen's AutoDiffScalar, beside the other libraries of Debian that the compiler finds.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -8,7 +7,6 @@
 
 #include "clock.h"
 #include "material/rate_law.h"
-#include "scene/expression.h"
 #include "scene/formulas.h"
 
 #if __has_include(<boost/math/differentiation/autodiff.hpp>)
@@ -174,16 +172,4 @@ int main() {
     });
   }
 #endif
-  // One component of muParser's in three variables, evaluated as often as four in four would be.
-  const mortier::Function component =
-      mortier::parseExpression("0.3*sqrt(x^2 + y^2 - x*y + 3*t^2)^3.5*(x - (x + y)/3)", "").value;
-  measure("muParser, central differences", stress, [&](const Matrix& s, Matrix& slopes) {
-    for (int i = 0; i < points; ++i)
-      for (int k = 0; k < 4; ++k)
-        for (int c = 0; c < 4; ++c) {
-          constexpr double h = 1e-5;
-          slopes(4 * k + c, i) =
-              (component(s(0, i) + h, s(1, i), s(2, i)) - component(s(0, i) - h, s(1, i), s(2, i))) / (2 * h);
-        }
-  });
 }

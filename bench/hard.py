@@ -20,9 +20,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "bench" / "hard"
-sys.path[:0] = [str(ROOT / "study"), str(ROOT / "compare"), str(SCENES)]
+sys.path[:0] = [*(str(ROOT / each) for each in ("bench/peer_codes", "study", "compare")), str(SCENES)]
 
 import codes  # noqa: E402
+import drivers  # noqa: E402, F401: GetFEM, CalculiX
 import rows  # noqa: E402
 import scene as scenes  # noqa: E402
 from known import measure  # noqa: E402

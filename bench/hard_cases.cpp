@@ -27,18 +27,18 @@ int main(int argc, char** argv) {
                          : report.status == Status::unheld  ? "unheld"
                                                             : "failed";
     std::printf("%-78s %-9s %-12s %5d %5d %8.1e %8.1e %8.1e %8.1e %8.3f%s\n", hard.name.c_str(), status,
-                nameOf(result.rung()), report.iterations, report.maxIterationsInAStep,
+                nameOf(result.method()), report.iterations, report.maxIterationsInAStep,
                 report.worst.forceBalance, report.worst.materialResidual, report.worst.gapOnActive,
                 report.worst.complementarity, result.seconds,
                 result.meetsLimits() ? "" : "  <-- limits not met");
     if (!report.reason.empty()) std::printf("    %s\n", report.reason.c_str());
     std::fflush(stdout);
     missed += result.meetsLimits() ? 0 : 1;
-    for (const auto& [rung, cost] : result.costs) costs[rung].add(cost);
+    for (const auto& [method, cost] : result.costs) costs[method].add(cost);
   }
   std::printf("\n%-16s %8s %14s %10s %8s\n", "rung", "steps", "linear solves", "a step", "most");
-  for (const auto& [rung, cost] : costs)
-    std::printf("%-16s %8d %14d %10.1f %8d\n", nameOf(rung), cost.steps, cost.iterations,
+  for (const auto& [method, cost] : costs)
+    std::printf("%-16s %8d %14d %10.1f %8d\n", nameOf(method), cost.steps, cost.iterations,
                 static_cast<double>(cost.iterations) / cost.steps, cost.most);
   std::printf("%d cases beyond the limits\n", missed);
 }

@@ -6,7 +6,8 @@ Usage: bench/pages.py [--repeat 9] [--mortier build/mortier]
 
 Needs Debian's chromium and chromium-driver. Milliseconds: `first` is that time of the first page in a new
 browser, `usable` the least and the median of those that follow; `processor` is the median of the processor
-time of the page's thread until then, which does not depend on what else the machine does.
+time of the page's thread until then, which does not depend on what else the machine does. `report` and
+`plot`: the processor time of these commands over that of the run.
 """
 import argparse
 import os
@@ -40,6 +41,13 @@ def solid(mortier, folder):
     assert done.returncode == 0, done.stderr
 
 
+def processor_time(work):
+    """What a call takes of this process and its children [s]."""
+    begin = os.times()
+    work()
+    return sum(os.times()[:4]) - sum(begin[:4])
+
+
 def opened(browser, path):
     """Milliseconds until the page can be used, and processor time of its thread."""
     milliseconds = browser.open(path)
@@ -60,14 +68,20 @@ def main():
     from views_support import solve, view
     with tempfile.TemporaryDirectory(prefix="mortier-pages-") as folder:
         folder = Path(folder)
-        note(solve, folder)
-        membrane(mortier, folder)
-        solid(mortier, folder)
-        print(f"{'page':10}{'MB':>8}{'first':>8}{'usable':>8}{'median':>8}{'processor':>11}{'messages':>10}")
-        for name in ("note", "membrane", "solid"):
-            code, _, errors = view(folder, "report", name, "--out", f"{name}.html")
+        runs = {"note": lambda: note(solve, folder), "membrane": lambda: membrane(mortier, folder),
+                "solid": lambda: solid(mortier, folder)}
+
+        def made(command, name, *more):
+            code, _, errors = view(folder, command, name, *more)
             if code:
                 sys.exit(errors)
+
+        print(f"{'page':10}{'MB':>8}{'first':>8}{'usable':>8}{'median':>8}{'processor':>11}{'messages':>10}"
+              f"{'report':>8}{'plot':>8}")
+        for name, run in runs.items():
+            ran = processor_time(run)
+            report = processor_time(lambda: made("report", name, "--out", f"{name}.html")) / ran
+            plot = processor_time(lambda: made("plot", name)) / ran
             path = folder / f"{name}.html"
             browser = Browser()
             browser.cdp("Performance.enable", timeDomain="threadTicks")
@@ -79,7 +93,7 @@ def main():
             first, *times = [each[0] for each in found]
             print(f"{name:10}{path.stat().st_size / 1e6:8.2f}{first:8.0f}{min(times):8.0f}"
                   f"{statistics.median(times):8.0f}{statistics.median(each[1] for each in found):11.0f}"
-                  f"{messages:10}", flush=True)
+                  f"{messages:10}{report:8.2f}{plot:8.2f}", flush=True)
 
 
 if __name__ == "__main__":

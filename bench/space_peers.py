@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from codes import require_getfem
+from drivers import require_getfem
 from problems import RunFailure
 from process import measured
 

@@ -1,9 +1,11 @@
 // How far random runs with steps chosen by their error are off (tests/theory/time_errors.h), and what they
 // cost beside equal steps.
-//   build/bench/time_errors FROM TO [FINE]     a line for each run, then the distribution
+//   build/bench/time_errors FROM TO [FINE [compare|reclose]]     a line for each run, then the distribution;
+//                                   with equal steps beside it, or of bodies whose contact opens and recloses
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "theory/time_errors.h"
 
@@ -65,14 +67,15 @@ int main(int argc, char** argv) {
   const int from = argc > 1 ? std::atoi(argv[1]) : 0;
   const int to = argc > 2 ? std::atoi(argv[2]) : 100;
   const int fine = argc > 3 ? std::atoi(argv[3]) : 4000;
-  const bool compares = argc > 4;
+  const std::string option = argc > 4 ? argv[4] : "";
+  const bool compares = option == "compare";
   std::vector<double> errors;
   std::vector<double> works;   // over the cheapest equal steps
   std::vector<double> fairer;  // that see the data, and are as exact in the friction work
   int told = 0;
   int failed = 0;
   for (int seed = from; seed < to; ++seed) {
-    const Case of = randomCase(seed);
+    const Case of = randomCase(seed, option == "reclose");
     const Outcome run = outcomeOf(of, fine, of.plan);
     const double error = std::max(run.stress, run.displacement);
     const bool says = run.run.timeError > of.tolerance;

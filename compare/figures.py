@@ -41,7 +41,7 @@ def main():
     parser.add_argument("--overview", type=Path, metavar="FILE")
     arguments = parser.parse_args()
     try:
-        views = [pictures.view(runs.Result(folder)) for folder in (arguments.mortar, arguments.interpolation)]
+        views = [pictures.view(runs.read(folder)) for folder in (arguments.mortar, arguments.interpolation)]
     except results.ResultError as error:
         print(f"figures: {error}", file=sys.stderr)
         return 2

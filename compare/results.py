@@ -33,6 +33,15 @@ LARGEST = 1e300  # beyond it, sums and differences of a few numbers overflow
 FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes")
 
 
+def von_mises(*components):
+    """Of stresses, in the order of the files."""
+    if len(components) == 6:
+        s11, s22, s33, s12, s23, s13 = components
+    else:
+        s11, s22, s12, s33, s23, s13 = (*components, *[0.0] * (6 - len(components)))
+    return np.sqrt(((s11 - s22)**2 + (s22 - s33)**2 + (s33 - s11)**2) / 2 + 3 * (s12**2 + s23**2 + s13**2))
+
+
 @dataclass
 class Body:
     displacement: np.ndarray  # vertices x 2, or x 3 in space [m]
@@ -56,13 +65,7 @@ class Body:
 
     @property
     def von_mises(self):
-        if self.stress.shape[1] == 6:
-            s11, s22, s33, s12, s23, s13 = self.stress.T
-            return np.sqrt(((s11 - s22)**2 + (s22 - s33)**2 + (s33 - s11)**2) / 2
-                           + 3 * (s12**2 + s23**2 + s13**2))
-        s11, s22, s12, *beyond = self.stress.T
-        s33 = beyond[0] if beyond else 0.0
-        return np.sqrt(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * s12**2)
+        return von_mises(*self.stress.T)
 
 
 @dataclass
@@ -78,6 +81,7 @@ class Contact:
     friction: np.ndarray = None  # nodal, along the line [N/m]
     shear: np.ndarray = None  # [Pa]
     slipping: np.ndarray = None  # sign of the shear stress where it slipped in the last step, else 0
+    slip: np.ndarray = None  # relative tangential displacement [m]
 
 
 @dataclass
@@ -158,7 +162,7 @@ def contact_of(rows):
     return Contact(column("vertex").astype(int), np.column_stack([column(x) for x in axes]), column("gap"),
                    column("force"), column("pressure"), column("interface").astype(int),
                    *(column(name) if rows and name in rows[0] else None
-                     for name in ("friction", "shear", "slipping")))
+                     for name in ("friction", "shear", "slipping", "slip")))
 
 
 def read_history(folder):
@@ -216,7 +220,7 @@ def finished(run):
         require_finite(run.folder, f"stress of {name}", body.stress)
     require_finite(run.folder, "contact forces", run.contact.force)
     require_finite(run.folder, "contact gaps", run.contact.gap)
-    for name in ("friction", "shear", "slipping"):
+    for name in ("friction", "shear", "slipping", "slip"):
         if getattr(run.contact, name) is not None:
             require_finite(run.folder, name, getattr(run.contact, name))
     require_finite(run.folder, "contact nodes", run.contact.position)

@@ -7,9 +7,9 @@
 #include <new>
 
 #include "base/error.h"
-#include "base/ranks.h"
 #include "commands/command_line.h"
 #include "linear/blas.h"
+#include "linear/distributed_engine.h"
 
 using namespace mortier;
 
@@ -47,8 +47,8 @@ int dispatch(int argc, char** argv) {
 }
 
 int complainOf(const std::string& text, int code) {
-  if (Ranks::all().end(code)) complain(text);
-  Ranks::all().leave();
+  complain(text);
+  endProcesses();
   return code;
 }
 
@@ -60,18 +60,15 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   dense::endThreadsOfBlas();
   try {
-    startRanks(argc, argv);
+    startProcesses(argc, argv);
     const int code = dispatch(argc, argv);
     finishStandardOutput();
-    static_cast<void>(Ranks::all().end(code));  // it has reported why
-    Ranks::all().leave();
+    endProcesses();
     return code;
   } catch (const InputError& error) {
     return complainOf(error.what(), exitWrongInput);
   } catch (const UnheldBodyError& error) {
     return complainOf(error.what(), exitUnheld);
-  } catch (const PeerEnded& error) {
-    return complainOf(error.what(), error.code());
   } catch (const std::bad_alloc&) {
     return complainOf("out of memory", exitFailed);
   } catch (const std::exception& error) {

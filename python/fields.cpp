@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bind.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace py = pybind11;
 
@@ -38,7 +38,7 @@ const CellFields& cellsOf(Step& step, size_t body) {
 /// Square root of the estimated share of each triangle, in the energy norm of its body, as in the files.
 const std::vector<Vector>& errorsOf(Step& step) {
   if (step.errors.empty())
-    for (const ErrorEstimate& each : SpaceErrorEstimator (*step.of->model)(step.state))
+    for (const ErrorEstimate& each : MeshErrorEstimator (*step.of->model)(step.state))
       step.errors.emplace_back((each.error / (each.energy > 0 ? each.energy : 1)).cwiseSqrt());
   return step.errors;
 }

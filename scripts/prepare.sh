@@ -1,23 +1,19 @@
 # shellcheck shell=bash
 # Sourced by ./demo and ./check: what both need before they start.
 #   install_missing   installs the Debian packages that are not there; without network when all are
-#   build [TARGET]    builds in build/ (Release), everything or one target
+#   build [TARGET]    builds in build/ (Release): everything, or one target, for which a new folder is
+#                     configured without tests, benchmarks, Python module and MPI
 # The caller sets $root, the repository. MORTIER_JOBS sets the number of compilers that run at once.
 : "${root:?}"
 
+# What the program needs, and the other code.
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
-  libtomlplusplus-dev libmuparser-dev                      # scenes
-  libgmsh-dev                                              # meshes other than Medit's
-  libopenmpi-dev openmpi-bin libmetis-dev libmumps-dev     # runs of several processes
-  libcli11-dev nlohmann-json3-dev                          # command line, summaries
-  libgtest-dev libbenchmark-dev groff-base zsh fish        # tests, benchmarks
-  dpkg-dev file                                            # packaging
-  freefem++                                                # the other code
+  libeigen3-dev libsuitesparse-dev libopenblas-dev  # linear algebra
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev  # scenes, command line, summaries
+  libgmsh-dev                                       # meshes other than Medit's
+  freefem++                                         # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
-  libjs-three                                              # pages of results in space
-  pybind11-dev python3-dev mypy                            # the Python module
 )
 
 say() { printf '\n== %s\n' "$*"; }
@@ -78,7 +74,7 @@ jobs_at_once() {
 build() {
   # Sources are compiled a dozen at a time: that halves the time of a first build.
   local options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12)
-  local folder="$root/build"
+  local folder="$root/build" all=(TESTS BENCH PYTHON MUMPS)
   case $root in
     *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;;
   esac
@@ -86,6 +82,12 @@ build() {
   local cache=$folder/CMakeCache.txt
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
     rm -rf "$folder"
+  fi
+  if [ $# -eq 0 ]; then
+    options+=("${all[@]/#/-UMORTIER_}")  # each as what is installed now allows
+  elif [ ! -f "$cache" ]; then
+    local name
+    for name in "${all[@]}"; do options+=("-DMORTIER_$name=OFF"); done
   fi
   [ -f "$cache" ] || options+=(-G Ninja)
   if [ "$(uname -m)" = x86_64 ] && ! { grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; }; then

@@ -6,7 +6,7 @@
 set -u -o pipefail
 root=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
 source "$root/scripts/prepare.sh"
-build all
+build
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 say "The package"

@@ -13,7 +13,7 @@ AXES = {
     "accuracy": ("accuracy.energy", "numbers > 0"),
     "level": (None, "integers >= 0"), "code": (None, "strings"), "threads": (None, "integers >= 1"),
 }
-CODES = ("mortier", "freefem", "getfem", "calculix")
+CODES = ("mortier", "freefem")
 
 
 def check_axis(table, axis, values, levels):

@@ -5,10 +5,10 @@ run is a process `mortier study -` of the worker (remote.py), which ends early w
 the study is stopped.
 """
 import logging
-import pickle
 
 import remote
 import work
+from parcel import unpacked
 from problems import RunFailure, StudyError
 
 PATIENCE = 10  # seconds in which a scheduler answers
@@ -59,7 +59,7 @@ class Workers:
                 if isinstance(error, KilledWorker):
                     error = "every worker that began it was killed or ran out of memory"
                 if error is None:
-                    then(case, pickle.loads(future.result()))
+                    then(case, unpacked(future.result()))
                 elif then is reference_done:
                     then(case, RunFailure(str(error)))
                 else:

@@ -1,30 +1,23 @@
 """Runs a case in one of the codes; whatever the code,
 the answer is a results.Run (compare/results.py) with points.
 
-Environment: MORTIER, the program; FREEFEM (FreeFem++-nw), CCX (ccx): the other codes' programs.
+Environment: MORTIER, the program; FREEFEM (FreeFem++-nw).
 """
-import json
 import os
 import re
 import shutil
 import statistics
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.append(str(HERE.parent / "compare"))
+import scene as scenes
+from axes import AXES
+from problems import RunFailure
+from process import Cost, measured
+import results  # problems.py says where it is
 
-import results  # noqa: E402
-
-import scene as scenes  # noqa: E402
-from axes import AXES  # noqa: E402
-from problems import RunFailure  # noqa: E402
-from process import Cost, measured  # noqa: E402
-
-MORTIER = os.environ.get("MORTIER", str(HERE.parent / "build" / "mortier"))
+MORTIER = os.environ.get("MORTIER", str(Path(__file__).resolve().parents[1] / "build" / "mortier"))
 FREEFEM = os.environ.get("FREEFEM", "FreeFem++-nw")
-PYTHON = sys.executable
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
@@ -57,12 +50,10 @@ def run(case, scene, meshes, folder, timeout=None, repeat=1):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     settings = settings_of(case, meshes)
-    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem,
-             "calculix": run_calculix}[case.code]
     costs = []
     try:
         for _ in range(repeat):
-            outcome = solve(case, scene, settings, folder, timeout)
+            outcome = SOLVERS[case.code](case, scene, settings, folder, timeout)
             costs.append(outcome.cost)
     except results.ResultError as error:
         raise RunFailure(str(error)) from error
@@ -132,71 +123,7 @@ def outcome_of(run_, cost, steps, iterations):
     return Outcome(run_, cost, triangles, dofs, steps, iterations)
 
 
-def require_plain(case):
-    """What the other codes do not know."""
-    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
-        raise RunFailure("takes equal steps of backward Euler only")
-    if case["accuracy"] or (case["degree"] or 1) > 1:
-        raise RunFailure("takes linear triangles of the meshes as they are only")
-
-
-def require_getfem():
-    if not any((Path(path) / "getfem").is_dir() for path in (*sys.path, "/usr/lib/python3/dist-packages")):
-        raise RunFailure("GetFEM is not installed (Debian package python3-getfem)")
-
-
-def run_getfem(case, scene, settings, folder, timeout):
-    require_plain(case)
-    require_getfem()
-    return run_peer("getfem_code.py", case, scene, settings, folder, timeout)
-
-
-def run_calculix(case, scene, settings, folder, timeout):
-    require_plain(case)
-    if shutil.which(os.environ.get("CCX", "ccx")) is None:
-        raise RunFailure("CalculiX is not installed (Debian package calculix-ccx)")
-    return run_peer("calculix_code.py", case, scene, settings, folder, timeout)
-
-
-def run_peer(program, case, scene, settings, folder, timeout):
-    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone
-    cost."""
-    checked = folder / "checked.edp"
-    measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
-    document = scenes.load(scene, settings, checked)
-    scenes.take_sides(document, checked.read_text())
-    problem = folder / "problem.json"
-    problem.write_text(json.dumps(document, default=str))
-    cost, _ = measured([PYTHON, HERE / program, problem, folder / "result.npz"], timeout, cwd=folder,
-                       environment=ONE_THREAD)
-    return read_peer(folder, cost)
-
-
-def read_peer(folder, cost):
-    import numpy as np
-
-    data = np.load(folder / "result.npz", allow_pickle=False)
-    facts = json.loads(str(data["facts"]))
-    bodies = {name: results.Body(data[f"{name}.displacement"], data[f"{name}.stress"], data[f"{name}.points"],
-                                 data[f"{name}.triangles"]) for name in facts["bodies"]}
-    contact = None
-    if "contact.position" in data:
-        contact = results.Contact(data["contact.vertex"], data["contact.position"], data["contact.gap"],
-                                  data["contact.force"])
-    run_ = results.Run(facts["code"], folder, bodies, contact, facts)
-    for name, body in bodies.items():
-        results.require_finite(folder, f"displacement of {name}", body.displacement)
-        results.require_finite(folder, f"stress of {name}", body.stress)
-    mises = np.concatenate([body.von_mises for body in bodies.values()])
-    u = np.concatenate([body.displacement for body in bodies.values()])
-    run_.scalars = {"von_mises_min": mises.min(), "von_mises_max": mises.max(),
-                    "displacement_min_x": u[:, 0].min(), "displacement_min_y": u[:, 1].min(),
-                    "displacement_max_x": u[:, 0].max(), "displacement_max_y": u[:, 1].max()}
-    if contact is not None:
-        run_.scalars["contact_force"] = float(contact.force.sum())
-    if "wall_time" in facts:
-        cost = Cost(facts["wall_time"], facts["processor_time"], facts["memory"])
-    return outcome_of(run_, cost, facts["steps"], facts["iterations"])
+SOLVERS = {"mortier": run_mortier, "freefem": run_freefem}  # those of bench/peer_codes add themselves
 
 
 def make_meshes(plan, folder):

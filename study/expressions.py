@@ -23,7 +23,7 @@ class Expression:
     def __init__(self, value, names=()):
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise ValueError("expected a number or an expression in x, y, t")
-        self.text = str(value)
+        self.text, self.names = str(value), tuple(names)
         if not self.text.isprintable():
             raise ValueError("expected visible characters")
         text = self.text.replace("^", "**").replace("&&", " and ").replace("||", " or ")
@@ -50,6 +50,9 @@ class Expression:
             self(np.zeros(1), np.zeros(1), 0.0, **{name: np.zeros(1) for name in names})
         except (TypeError, ArithmeticError, RecursionError, AttributeError) as error:
             raise ValueError(f"cannot be evaluated: {error}") from error
+
+    def __reduce__(self):
+        return Expression, (self.text, self.names)
 
     def __call__(self, x, y, t, **values):
         names = {"x": x, "y": y, "t": t, "pi": np.pi, **values}

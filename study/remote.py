@@ -7,7 +7,6 @@ the run ends too.
 import dataclasses
 import hashlib
 import os
-import pickle
 import subprocess
 import sys
 import tempfile
@@ -18,6 +17,7 @@ from pathlib import Path
 import codes
 import process
 import work
+from parcel import packed, unpacked
 from problems import RunFailure, StudyError
 
 STAMP = 64  # characters
@@ -31,7 +31,7 @@ class Task:
 
     def words(self, case, is_reference):
         """stamp, length, task."""
-        data = pickle.dumps((self.plan, self.meshes, case, is_reference, os.getcwd()))
+        data = packed((self.plan, self.meshes, case, is_reference, os.getcwd()))
         return self.stamp + len(data).to_bytes(8, "little") + data
 
 
@@ -49,7 +49,7 @@ def stamp():
 
 
 def files_of(plan, meshes, cases):
-    """absolute path -> bytes, pickled, of every file that the runs read: the scene, and what a text in it or
+    """absolute path -> bytes, packed, of every file that the runs read: the scene, and what a text in it or
     the value of an axis names. StudyError: an absolute path, which is another place on another machine."""
     scene = Path(os.path.abspath(plan.scene))
     named = [(scene.parent, text) for text in texts(tomllib.loads(scene.read_text(encoding="utf-8")))]
@@ -60,7 +60,7 @@ def files_of(plan, meshes, cases):
             if os.path.isabs(text):
                 raise StudyError(f'{plan.scene}: "{text}", expected a relative path: workers have no files')
             paths.add(Path(os.path.abspath(folder / text)))
-    return pickle.dumps({str(path): path.read_bytes() for path in paths})
+    return packed({str(path): path.read_bytes() for path in paths})
 
 
 def texts(value):
@@ -92,21 +92,21 @@ def serve():
             process.stop_all()
         threading.Thread(target=watch, daemon=True).start()
         try:
-            answer.write(pickle.dumps(run(Path(folder), *task, *rest)))
+            answer.write(packed(run(Path(folder), *task, *rest)))
             answer.flush()
         except process.Stopped:
             return
 
 
 def read(source):
-    return pickle.loads(source.read(int.from_bytes(source.read(8), "little")))
+    return unpacked(source.read(int.from_bytes(source.read(8), "little")))
 
 
 def run(folder, plan, meshes, case, is_reference, cwd, files, truth, at_once):
     def place(path):
         """The place of an absolute path here."""
-        return folder / "files" / Path(path).relative_to("/")
-    for path, data in pickle.loads(files).items():
+        return folder / "files" / Path(os.path.abspath(path)).relative_to("/")
+    for path, data in unpacked(files).items():
         place(path).parent.mkdir(parents=True, exist_ok=True)
         place(path).write_bytes(data)
     place(cwd).mkdir(parents=True, exist_ok=True)
@@ -116,4 +116,4 @@ def run(folder, plan, meshes, case, is_reference, cwd, files, truth, at_once):
     meshes = {body: [place(path) for path in paths] for body, paths in meshes.items()}
     if is_reference:
         return work.reference_run(plan, meshes, case, folder / "run")
-    return work.row_of(plan, meshes, case, folder / "run", truth and pickle.loads(truth), at_once)
+    return work.row_of(plan, meshes, case, folder / "run", truth and unpacked(truth), at_once)

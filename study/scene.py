@@ -1,4 +1,4 @@
-"""The scene of a study as Python sees it: what the norms of the errors and the other codes need of it.
+"""The scene of a study as Python sees it: what the norms of the errors need of it.
 
 Messages about a wrong scene are the program's own (`mortier run` reads it first); here it is taken as sound.
 """
@@ -34,17 +34,6 @@ def load(path, settings=(), script=None):
         if contact.get("swap") and "sides" not in contact:
             contact["nonmortar"], contact["mortar"] = contact["mortar"], contact["nonmortar"]
     return document
-
-
-def take_sides(document, script):
-    """The sides of every contact as the program decided them:
-    it names them in the script that it wrote for FreeFEM."""
-    rows = re.search(r"^int\[int, int\] contact = \[(.*)\];$", script, re.MULTILINE)
-    for contact, row in zip(document["contact"], re.findall(r"\[([^\[\]]+)\]", rows[1])):
-        first, first_label, second, second_label = map(int, row.split(","))
-        contact.pop("sides", None)
-        contact["nonmortar"] = {"body": document["body"][first - 1]["name"], "label": first_label}
-        contact["mortar"] = {"body": document["body"][second - 1]["name"], "label": second_label}
 
 
 def value_of(text):
@@ -104,26 +93,6 @@ class Mesh:
         self.edges = blocks["Edges"][:, :2].astype(int) - 1
         self.labels = blocks["Edges"][:, 2].astype(int)
 
-    def edges_of(self, label):
-        return self.edges[self.labels == label]
-
-    def nodes_of(self, label):
-        return np.unique(self.edges_of(label))
-
-    def line(self, label):
-        """Nodes of a boundary line in its order; an open one from the end that is first in x, then y."""
-        beside = {}
-        for a, b in self.edges_of(label).tolist():
-            beside.setdefault(a, []).append(b)
-            beside.setdefault(b, []).append(a)
-        ends = [node for node, next_ones in beside.items() if len(next_ones) == 1] or list(beside)
-        line = [min(ends, key=lambda node: tuple(self.points[node]))]
-        seen = set(line)
-        while onward := [node for node in beside[line[-1]] if node not in seen]:
-            line.append(onward[0])
-            seen.add(onward[0])
-        return np.array(line)
-
     def with_middles(self):
         """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles
         name their sides 0-1, 1-2, 2-0 first; and triangles x 6."""
@@ -135,7 +104,3 @@ class Mesh:
         middles = self.points[sides[np.sort(first)]].mean(1)
         elements = np.column_stack([self.triangles, len(self.points) + place[number.reshape(-1, 3)]])
         return np.concatenate([self.points, middles]), elements
-
-    def areas(self):
-        a, b, c = (self.points[self.triangles[:, i]] for i in range(3))
-        return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2

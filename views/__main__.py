@@ -87,7 +87,7 @@ def plot(given):
     # 1. The runs, and what is wrong with the options before anything is drawn.
     if len(given.results) > len(curves.OF_RUNS):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
-    results = [runs.Result(folder) for folder in given.results]
+    results = [runs.read(folder) for folder in given.results]
     space = in_space(results, given)
     if given.view and not space:
         raise Wrong("--view: for results in space only")
@@ -157,7 +157,7 @@ def make_report(given):
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
         raise Wrong(f"--out {out}: expected a file NAME.html")
-    found = [runs.Result(folder) for folder in given.results]
+    found = [runs.read(folder) for folder in given.results]
     space = in_space(found, given)
     if space:
         require("matplotlib")

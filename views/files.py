@@ -1,59 +1,32 @@
-"""Files that the program writes beside a result: whole or not at all, and never in place of a file of others.
-
-Each carries a seal, the SHA-256 of the rest: what has another one, or none,
-was made or changed by somebody else.
-"""
-import hashlib
+"""Files that the program writes beside a result: whole or not at all, and never in place of one of others."""
 import os
 import re
-import zlib
 from pathlib import Path
 
 from ending import Wrong
 
-MOST_BYTES = 4 << 30  # of a picture or a page
-
-
-def seal_of(data, kind):
-    """The seal, and how many bytes of the file follow it."""
-    text = b"mortier " + hashlib.sha256(data).hexdigest().encode()
-    if kind == "png":
-        chunk = b"tEXtComment\0" + text
-        return (len(chunk) - 4).to_bytes(4, "big") + chunk + zlib.crc32(chunk).to_bytes(4, "big"), 12
-    if kind == "gif":
-        return b"\x21\xfe" + bytes([len(text)]) + text + b"\0", 1
-    return b"<!-- " + text + b" -->\n", 0
-
-
-def sealed(data, kind):
-    seal, after = seal_of(data, kind)
-    at = len(data) - after
-    return data[:at] + seal + data[at:]
+MARK = "written by mortier plot, report or compare"  # in the head of each, where its kind says what made it
+HEAD = 4096  # bytes
 
 
 def is_own(path):
     if path.is_symlink() or not path.is_file():
         return False
-    if path.stat().st_size > MOST_BYTES:
-        return False
-    data, kind = path.read_bytes(), path.suffix[1:]
-    seal, after = seal_of(b"", kind)
-    at = len(data) - after - len(seal)
-    return at > 0 and sealed(data[:at] + data[at + len(seal):], kind) == data
+    with open(path, "rb") as file:
+        return MARK.encode() in file.read(HEAD)
 
 
 def put(files):
     """path -> bytes: all of them, or where one cannot be written none that was not there before."""
     for path in files:
         if (path.exists() or path.is_symlink()) and not is_own(path):
-            raise Wrong(f"{path}: in the way, and no file of mortier or changed since; expected "
-                        "another --out")
+            raise Wrong(f"{path}: in the way, and no file of mortier; expected another --out")
     new = {}
     try:
         for path, data in files.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             new[path] = path.with_name(f"{path.name}.tmp-{os.getpid()}")
-            new[path].write_bytes(sealed(data, path.suffix[1:]))
+            new[path].write_bytes(data)
         for path, written in new.items():
             os.replace(written, path)
     except OSError as error:

@@ -7,6 +7,7 @@ import numpy as np
 from PIL import Image
 
 import pictures
+from files import MARK
 from runs import natural_scale
 
 
@@ -47,7 +48,7 @@ def gif(frames):
     palette = opened[-1].quantize(255)
     first, *others = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in opened]
     out = io.BytesIO()
-    first.save(out, "gif", save_all=True, append_images=others, loop=0,
+    first.save(out, "gif", save_all=True, append_images=others, loop=0, comment=MARK,
                duration=[max(1000 // 12, 3000 // len(frames))] * len(others) + [2000])
     return out.getvalue()
 
@@ -72,7 +73,7 @@ def picture(figure, kind, **options):
     """The bytes of a figure."""
     data = io.BytesIO()
     options = {"bbox_inches": "tight", "pad_inches": 0.08, **options,
-               "metadata": {"Date": None} if kind == "svg" else {"Software": "mortier plot"}}
+               "metadata": {"Date": None, "Creator": MARK} if kind == "svg" else {"Software": MARK}}
     with boxes_for_unknown_letters():
         figure.savefig(data, format=kind, **options)
     return data.getvalue()

@@ -103,6 +103,21 @@ def colours_of(field, of_views):
     return Normalize(low, high), matplotlib.colormaps[colours], cut
 
 
+def coloured(views, field_name, norm, colours, raw):
+    """The field, its values of each view, their norm, colours, and whether some are beyond them."""
+    if field_name == "none":
+        return None, [None] * len(views), norm, colours, False
+    field = views[0].result.fields(views[0].run)[field_name]
+    values = [shown_values(each, field, raw) for each in views]
+    natural = colours_of(field, [(each.run.bodies, value) for each, value in zip(views, values)])
+    return field, values, norm or natural[0], colours or natural[1], natural[2] and norm is None
+
+
+def add_scale(figure, axes, field, norm, colours, cut, shrink):
+    figure.colorbar(ScalarMappable(norm, colours), ax=axes, label=labelled(field.words, field.unit),
+                    shrink=shrink, extend=("both" if field.signed else "max") if cut else "neither")
+
+
 def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None):
     """Deformed triangles; coloured by values (shown_values), or plain meshes where there are none."""
     for i, (name, body) in enumerate(run.bodies.items()):
@@ -279,13 +294,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
     look: contact_surface.Look, in space."""
     if views[0].result.space:
         return space.fields(views, field_name, scale, window, norm, colours, strips, raw, look)
-    field, values, cut = None, [None] * len(views), False
-    if field_name != "none":
-        field = views[0].result.fields(views[0].run)[field_name]
-        values = [shown_values(each, field, raw) for each in views]
-        natural = colours_of(field, [(each.run.bodies, value) for each, value in zip(views, values)])
-        cut = natural[2] and norm is None
-        norm, colours = norm or natural[0], colours or natural[1]
+    field, values, norm, colours, cut = coloured(views, field_name, norm, colours, raw)
     scale = scale if scale is not None else natural_scale(bodies_of(views))
     # else each has a window of its own
     alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)
@@ -316,8 +325,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
             below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)",
                             loc="left", fontsize=8)
     if field is not None:
-        figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit),
-                        shrink=0.9, extend=("both" if field.signed else "max") if cut else "neither")
+        add_scale(figure, whole, field, norm, colours, cut, 0.9)
     return figure
 
 

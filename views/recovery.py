@@ -2,6 +2,7 @@
 The difference to what they are recovered from estimates its error (Zienkiewicz and Zhu, 1992)."""
 import numpy as np
 
+from results import von_mises
 from runs import areas
 
 
@@ -32,16 +33,6 @@ def averaged_von_mises(body):
     """Of the means of the components."""
     means = Means(body)
     return von_mises(*map(means, body.stress.T))[means.places]
-
-
-def von_mises(*components):
-    """In the order of the files."""
-    if len(components) == 6:
-        s11, s22, s33, s12, s23, s13 = components
-    else:
-        s11, s22, s12, s33, s23, s13 = (*components, *[0.0] * (6 - len(components)))
-    shear = s12**2 + s23**2 + s13**2
-    return np.sqrt(np.maximum(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * shear, 0))
 
 
 AT = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6  # points of the stress in a quadratic triangle

@@ -22,6 +22,7 @@ import three
 from coding import Block, scaled
 from contact_line import boundary_edges
 from ending import shown
+from files import MARK
 from recovery import NormalStress
 from runs import extent, natural_scale, top_of
 
@@ -244,6 +245,7 @@ def page(results):
     programs = " ".join(f"'{digest(each)}'" for each in (program, library) if each)
     policy = f"default-src 'none'; script-src {programs}; style-src '{digest(looks)}'; img-src data:"
     return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            f"<meta name=\"generator\" content=\"{MARK}\">\n"
             f"<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"

@@ -1,4 +1,4 @@
-"""A result folder as pictures and reports need it: kept steps, fields by name, lines of contact, units."""
+"""A result as pictures and reports need it: kept steps, fields by name, lines of contact, units."""
 import os
 import re
 from dataclasses import dataclass
@@ -42,28 +42,31 @@ COMPONENTS, IN_SPACE = ("11", "22", "12", "33"), ("11", "22", "33", "12", "23", 
 AROUND_AXIS = (" (radial)", " (axial)", " (shear)", " (hoop)")  # what these are of bodies of revolution
 
 
+def read(folder):
+    """The Result in a folder. ResultError: it is no result of mortier run, or damaged."""
+    place = Path(folder)
+    if not os.path.isdir(folder):  # which is false for a name that is too long as well
+        raise results.ResultError(f"{folder}: no such folder, expected a result of mortier run")
+    summary = results.read_summary(place, failed=True)
+    if summary.get("code") == "FreeFEM":
+        raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one of "
+                                  "mortier run")
+    bodies = [body["name"] for body in results.body_list(place, summary)]
+    interfaces = summary.get("interfaces")
+    if not isinstance(interfaces, list) or not all(
+            isinstance(each, dict) and each.get("nonmortar") in bodies and each.get("mortar") in bodies
+            for each in interfaces):
+        raise results.ResultError(f"{place / 'summary.json'}: interfaces of bodies that there are not")
+    return Result(place, summary, results.kept_steps(place), results.read_history(place),
+                  results.contact_tables(place))
+
+
 class Result:
-    def __init__(self, folder):
-        """ResultError: it is no result of mortier run, or damaged."""
-        self.folder = Path(folder)
-        if not os.path.isdir(folder):  # which is false for a name that is too long as well
-            raise results.ResultError(f"{folder}: no such folder, expected a result of mortier run")
-        self.summary = results.read_summary(self.folder, failed=True)
-        if self.summary.get("code") == "FreeFEM":
-            raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one "
-                                      "of mortier run")
-        self.bodies = [body["name"] for body in results.body_list(self.folder, self.summary)]
-        self.interfaces = self.summary.get("interfaces")
-        if not isinstance(self.interfaces, list) or not all(
-                isinstance(each, dict) and each.get("nonmortar") in self.bodies
-                and each.get("mortar") in self.bodies
-                for each in self.interfaces):
-            raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that "
-                                      "there are not")
-        self.kept = results.kept_steps(self.folder)
-        self.tables = results.contact_tables(self.folder)
-        self.history = results.read_history(self.folder)
-        self.steps_read = {}
+    def __init__(self, folder, summary, kept, history, tables=None):
+        """kept: (number, time) of steps; history: column of history.csv -> numbers; tables:
+        results.contact_tables of a result that is in files."""
+        self.folder, self.summary, self.interfaces = folder, summary, summary["interfaces"]
+        self.kept, self.history, self.tables, self.steps_read = kept, history, tables, {}
 
     @property
     def revolved(self):
@@ -198,15 +201,15 @@ class Result:
                                                   ("gap", "gap", self.length_unit, True))]
 
     def stuck(self, run):
-        """Body, triangle and words of the place to look at where a run stopped early: where the step that was
-        not solved is furthest off the material law, else the largest stress of the last good state, beyond
-        yield where anything flows; None before there is any."""
+        """Body, triangle and words of the place to look at where a run stopped early: the largest residual
+        of the material law in the step that was not solved, else the largest stress of the last good state,
+        beyond yield where anything flows; None before there is any."""
         told = self.summary.get("stuck")
         if isinstance(told, dict):
             name, triangle = told.get("body"), told.get(self.element)
             known = isinstance(name, str) and name in run.bodies and type(triangle) is int
             if known and 0 <= triangle < len(run.bodies[name].simplices):
-                return name, triangle, f"furthest off its law, {self.place(run, name, triangle)}"
+                return name, triangle, f"largest residual of the law, {self.place(run, name, triangle)}"
         found = []
         for name, body in run.bodies.items():
             flows = body.cells.get("viscoplastic", np.zeros(len(body.simplices)))

@@ -14,7 +14,7 @@ import contact_surface
 from coding import Block
 from contact_line import keys_of
 from contact_surface import surface_of
-from recovery import von_mises
+from results import von_mises
 from runs import IN_SPACE, areas, extent, natural_scale, top
 
 NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small

@@ -175,14 +175,7 @@ def mark_largest(axes, view, look, scale, field, values, buffer, window, given):
 def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
     """As pictures.fields; window: as the camera has it."""
     look = look or Look()
-    field, values, cut = None, [None] * len(views), False
-    if field_name != "none":
-        field = views[0].result.fields(views[0].run)[field_name]
-        values = [pictures.shown_values(each, field, raw) for each in views]
-        natural = pictures.colours_of(field, [(each.run.bodies, value)
-                                              for each, value in zip(views, values)])
-        cut = natural[2] and norm is None
-        norm, colours = norm or natural[0], colours or natural[1]
+    field, values, norm, colours, cut = pictures.coloured(views, field_name, norm, colours, raw)
     scale = scale if scale is not None else natural_scale(bodies_of(views))
     alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)
     columns = [views if alike else [each] for each in views]
@@ -220,8 +213,7 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
             below[-1].set_title(of_interface.words + ("; filled dots: in contact" if of_interface.marked
                                                       else ""), loc="left", fontsize=8.5)
     if field is not None:
-        figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit),
-                        shrink=0.8, extend=("both" if field.signed else "max") if cut else "neither")
+        pictures.add_scale(figure, whole, field, norm, colours, cut, 0.8)
     if rows:
         figure.colorbar(ScalarMappable(*pressures), ax=below, shrink=0.9,
                         label=labelled("contact pressure", views[0].result.stress_unit))

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/element_nodes.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -17,12 +18,6 @@ constexpr double leastReduction = 1.0 / 8;
 constexpr double bounded = 1.1;
 constexpr double slowest = 0.2;
 
-const std::vector<std::array<int, 3>>& elementsOf(const TriangleMesh& mesh) {
-  return mesh.triangles;
-}
-const std::vector<std::array<int, 4>>& elementsOf(const TetrahedronMesh& mesh) {
-  return mesh.tetrahedra;
-}
 double sizeOf(const TriangleMesh& mesh, size_t t) {
   return doubleArea(mesh, static_cast<int>(t)) / 2;
 }
@@ -117,15 +112,12 @@ int AdaptedMeshes::unknowns() const {
 }
 
 template <class Body>
-std::vector<int> AdaptedMeshes::cut(Body& body, const std::vector<char>& marked,
-                                    std::vector<double>* byVertex) {
+std::vector<int> AdaptedMeshes::cut(Body& body, const std::vector<char>& marked) {
   stopIfInterrupted();
   auto refined = bisect(body.mesh, body.curves, marked);
   body.mesh = std::move(refined.mesh);
   body.curves = std::move(refined.curves);
   body.offCurve.insert(body.offCurve.end(), refined.offCurve.begin(), refined.offCurve.end());
-  if (byVertex != nullptr)
-    for (const auto& [a, b] : refined.cutEdges) byVertex->push_back(((*byVertex)[a] + (*byVertex)[b]) / 2);
   return std::move(refined.parents);
 }
 
@@ -152,17 +144,17 @@ void AdaptedMeshes::halveAt(size_t body, const SpacePoint& place) {
   std::visit(
       [&](auto& of) {
         for (int i = 0; i < dimension_; ++i) {
+          const auto away = [&](const auto& x) {
+            return (x - place.head<std::decay_t<decltype(x)>::RowsAtCompileTime>()).squaredNorm();
+          };
+          const auto& vertices = of.mesh.vertices;
+          const auto nearest =
+              std::min_element(vertices.begin(), vertices.end(),
+                               [&](const auto& a, const auto& b) { return away(a) < away(b); }) -
+              vertices.begin();
           std::vector<char> marked;
-          for (const auto& element : elementsOf(of.mesh)) {
-            double length = 0;
-            double away = std::numeric_limits<double>::infinity();
-            for (const int v : element) {
-              const auto& x = of.mesh.vertices[v];
-              for (const int other : element) length = std::max(length, (of.mesh.vertices[other] - x).norm());
-              away = std::min(away, (x - place.head<std::decay_t<decltype(x)>::RowsAtCompileTime>()).norm());
-            }
-            marked.push_back(away <= length ? 1 : 0);
-          }
+          for (const auto& element : elementsOf(of.mesh))
+            marked.push_back(std::find(element.begin(), element.end(), nearest) != element.end() ? 1 : 0);
           cut(of, marked);
         }
       },
@@ -261,41 +253,40 @@ void AdaptedMeshes::learnRates(Body& body, const Vector& error, double rounding)
 template <class Body>
 void AdaptedMeshes::cutToSize(Body& body, const Vector& reduction, std::vector<char> marked) {
   const size_t vertices = body.mesh.vertices.size();
-  std::vector<double> logSize(vertices, 0);
+  std::vector<double> atVertex(vertices, 0);
   std::vector<int> around(vertices, 0);
   const auto logOf = [&](size_t t) { return std::log(sizeOf(body.mesh, t)); };
-  const auto wanted = [&](size_t t) {
-    return logOf(t) + dimension_ * std::log(reduction[static_cast<Eigen::Index>(t)]);
-  };
+  const auto own = [&](size_t t) { return dimension_ * std::log(reduction[static_cast<Eigen::Index>(t)]); };
   for (size_t t = 0; t < elementsOf(body.mesh).size(); ++t)
     for (const int v : elementsOf(body.mesh)[t]) {
-      logSize[v] += wanted(t);
+      atVertex[v] += own(t);
       ++around[v];
     }
-  for (size_t v = 0; v < vertices; ++v) logSize[v] /= around[v];
-  // The mean at a vertex hides a single element with a large error: those that make half of it have a limit
-  // each.
-  std::vector<double> limit(marked.size(), std::numeric_limits<double>::infinity());
-  for (size_t t = 0; t < marked.size(); ++t)
-    if (marked[t] != 0) limit[t] = wanted(t);
+  for (size_t v = 0; v < vertices; ++v) atVertex[v] /= around[v];
+  // Of reductions, not of sizes: a mesh whose elements differ in size is not cut where it has no error. The
+  // mean hides a single element with a large error: those that make half of it have their own, too.
+  std::vector<double> wanted;
+  for (size_t t = 0; t < elementsOf(body.mesh).size(); ++t) {
+    double mean = 0;
+    for (const int v : elementsOf(body.mesh)[t]) mean += atVertex[v];
+    mean /= dimension_ + 1;
+    wanted.push_back(logOf(t) + (marked[t] != 0 ? std::min(mean, own(t)) : mean));
+  }
   // An element is half as large when it is cut: from there on, cutting it is nearer to what it should be. In
   // space the cuts that keep the mesh conforming make many smaller than that.
   const double slack = std::log(2.0) * (dimension_ == 2 ? 0.5 : 0.75) + 1e-9;
   for (bool first = true;; first = false) {
-    marked.resize(elementsOf(body.mesh).size(), 0);
+    marked.resize(wanted.size(), 0);
     bool any = false;
     for (size_t t = 0; t < marked.size(); ++t) {
-      double mean = 0;
-      for (const int v : elementsOf(body.mesh)[t]) mean += logSize[v];
-      mean /= dimension_ + 1;
-      const bool large = logOf(t) > std::min(mean, limit[t]) + slack;
+      const bool large = logOf(t) > wanted[t] + slack;
       marked[t] = large || (first && marked[t] != 0) ? 1 : 0;
       any = any || marked[t] != 0;
     }
     if (!any) return;
-    std::vector<double> limits;
-    for (const int parent : cut(body, marked, &logSize)) limits.push_back(limit[parent]);
-    limit = std::move(limits);
+    std::vector<double> next;
+    for (const int parent : cut(body, marked)) next.push_back(wanted[parent]);
+    wanted = std::move(next);
     marked.clear();
   }
 }

@@ -4,8 +4,8 @@
 //
 //   r_T = c eta_T^(-2/(2p+d)),  1/8 <= r_T <= 1,     sum of eta_T^2 r_T^(2p) = aim^2,
 //
-// A_T r_T^d is the size that an element should have; the mean of its logarithm over the elements of a vertex
-// is a field by which elements are cut until they are small enough. Two things are done beside that:
+// A_T r_T^d is the size that an element should have; log r_T is the mean over its vertices, at which it is
+// that over the elements there, and elements are cut until they are small enough. Two things are done beside:
 //   - the elements that make half of the error (Doerfler 1996) are cut in any case;
 //   - where the error of the elements of a vertex has fallen from one round to the next like h^(2s + d - 2),
 //     h^d their size, with s < 1.1, the stress is unbounded there, at a point of the plane or along an edge
@@ -53,7 +53,7 @@ class AdaptedMeshes {
   void refine(const std::vector<Vector>& errors, double aim);
   /// Cuts every element in two.
   void refineAll();
-  /// Halves the size of the elements at a place: those with a vertex no farther than they are long.
+  /// Halves the size of the elements around the vertex that is nearest to a place.
   void halveAt(size_t body, const SpacePoint& place);
   // In the plane:
   /// Gives each of two lines that face each other a vertex where the other one has a corner.
@@ -81,7 +81,7 @@ class AdaptedMeshes {
   void learnRates(Body& body, const Vector& error, double rounding) const;
   /// \returns the element of which each new one is a part
   template <class Body>
-  std::vector<int> cut(Body& body, const std::vector<char>& marked, std::vector<double>* byVertex = nullptr);
+  std::vector<int> cut(Body& body, const std::vector<char>& marked);
   template <class Body>
   void cutToSize(Body& body, const Vector& reduction, std::vector<char> marked);
   template <class Body>

@@ -54,7 +54,7 @@ void ErrorHistory::add(const StepReport& report) {
   }
   double error = 0;
   double energy = 0;
-  const CurrentSpaceError::Estimates estimates = error_.estimates();
+  const CurrentMeshError::Estimates estimates = error_.estimates();
   for (size_t b = 0; b < estimates->size(); ++b) {
     const ErrorEstimate& estimate = (*estimates)[b];
     largest_[b] = largest_[b].cwiseMax(estimate.error);
@@ -104,7 +104,7 @@ ResolvedScene Rounds::scene() const {
 }
 
 Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
-  constexpr int mostMissed = 8;
+  constexpr int mostMissed = 16;
   if (result.missed && result.missed->all) {
     ++done_;
     meshError_ = 0;
@@ -131,6 +131,8 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
     bounded_ = corrected_;
   }
   const double ofMeshes = least_ * asked - timeShare();
+
+  if (corrected_ > 0) sizes_.emplace_back(meshes_.unknowns(), corrected_);
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
@@ -211,7 +213,8 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
       else if (!result.missed)
         meshes_.refineAll();
       for (size_t i = 0; result.missed && i < 2; ++i)
-        meshes_.halveAt(bodyIndex(description_, result.missed->bodies[i]), result.missed->places[i]);
+        for (int halving = 0; halving < 2; ++halving)
+          meshes_.halveAt(bodyIndex(description_, result.missed->bodies[i]), result.missed->places[i]);
       if (done_ == 1 && !meshes_.inSpace())
         for (const ContactDescription& contact : description_.contacts)
           meshes_.faceCorners(bodyIndex(description_, contact.nonmortar().body), contact.nonmortar().label,
@@ -228,7 +231,7 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
         aim_ = aim;
         return true;
       }
-      stop(small ? tooLong : "a further round would have more unknowns than max_unknowns");
+      stop(small ? tooLong : "a further round would have more unknowns than max_unknowns" + unknownsToCome());
       if (meshError_ == 0 || aim > gain * meshError_) break;
     }
   } catch (const TimeIsUp&) {
@@ -236,6 +239,20 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
   }
   meshes_ = kept;
   return false;
+}
+
+std::string Rounds::unknownsToCome() const {
+  constexpr size_t rounds = 3;  // single ones scatter
+  constexpr double fastest = 1.5;
+  if (aims() || sizes_.size() < rounds) return "";
+  const auto& [before, larger] = sizes_[sizes_.size() - rounds];
+  const auto& [unknowns, error] = sizes_.back();
+  const double smooth = double(description_.degree) / (meshes_.inSpace() ? 3 : 2);
+  const double fallen = std::log(larger / error) / std::log(double(unknowns) / before);
+  const double excess = std::max(error / (least_ * description_.accuracy.energy - timeShare()), 1.0);
+  const double needed = unknowns * std::pow(excess, 1 / std::max(std::min(fallen, fastest), smooth));
+  const double digit = std::pow(10, std::floor(std::log10(needed)));
+  return formatted(", about %.0f are needed", std::ceil(needed / digit) * digit);
 }
 
 Rounds::Verdict Rounds::stop(const std::string& reason) {

@@ -27,11 +27,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/adapted_meshes.h"
 #include "scene/resolve.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier {
 
@@ -40,7 +41,7 @@ namespace mortier {
 class ErrorHistory {
  public:
   /// \param error  of the states of the run
-  ErrorHistory(const Model& model, CurrentSpaceError& error) : model_(model), error_(error) {}
+  ErrorHistory(const Model& model, CurrentMeshError& error) : model_(model), error_(error) {}
   /// A state of the run, in their order; the initial state (step 0) begins anew.
   void add(const StepReport& report);
 
@@ -52,7 +53,7 @@ class ErrorHistory {
 
  private:
   const Model& model_;
-  CurrentSpaceError& error_;
+  CurrentMeshError& error_;
   std::vector<Vector> largest_;  ///< of each triangle
   double largestSum_ = 0;
   double energy_ = 0;
@@ -106,6 +107,8 @@ class Rounds {
 
  private:
   Verdict stop(const std::string& reason);
+  /// How many unknowns the accuracy takes, as errors have fallen; "" where that is not known.
+  [[nodiscard]] std::string unknownsToCome() const;
   [[nodiscard]] bool aims() const { return !description_.accuracy.quantity.empty(); }
   Verdict judgeAim(RoundResult result, double seconds);
   /// Whether this is the first round that has found contact.
@@ -127,6 +130,7 @@ class Rounds {
   int done_ = 0;
   int missed_ = 0;  ///< rounds in which no contact pressed, although bodies overlap
   int shortfalls_ = 0;
+  std::vector<std::pair<int, double>> sizes_;  ///< unknowns and errors of the rounds that had contact
   std::string reason_;
 };
 

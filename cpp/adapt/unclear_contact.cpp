@@ -25,7 +25,6 @@ Vector errorsOn(const Body& body, int label) {
 
 std::optional<MissedContact> unclearContact(const Model& model, const State& state) {
   constexpr double known = 1e-6;  // of an element: of the least distance in it
-  if (model.inParts()) return std::nullopt;
   const std::vector<Vector> u = displacementsOf(state);
   std::optional<MissedContact> deepest;
   double most = 0;

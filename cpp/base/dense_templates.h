@@ -28,6 +28,7 @@ using MatrixReader = const_blas_data_mapper<double, Index, storage>;
       const Eigen::VectorXd&, Eigen::VectorXd&) const;                                                       \
   extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(                 \
       const Eigen::MatrixXd&, Eigen::MatrixXd&) const;                                                       \
+  extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;                                                   \
   namespace Eigen::internal {                                                                                \
   extern template struct general_matrix_vector_product<Index, double, MatrixReader<ColMajor>, ColMajor,      \
                                                        false, double, MatrixReader<ColMajor>, false>;        \

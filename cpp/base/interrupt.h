@@ -22,38 +22,12 @@ using Clock = std::chrono::steady_clock;
 constexpr Clock::rep never = Clock::time_point::max().time_since_epoch().count();
 inline std::atomic<bool> requested = false;
 inline std::atomic<Clock::rep> deadline = never;
-inline std::atomic<int> uninterruptibleCalls = 0;
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
-              "signal handlers use them");
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers use it");
 }  // namespace interruption
 
 inline void requestInterrupt() {
   interruption::requested = true;
 }
-
-/// Marks a long call into a library that does not check the flag. No file is being written meanwhile and no
-/// step of a run is finished, so that a signal may end the process.
-struct UninterruptibleCall {
-  UninterruptibleCall() { ++interruption::uninterruptibleCalls; }
-  ~UninterruptibleCall() { --interruption::uninterruptibleCalls; }
-  UninterruptibleCall(const UninterruptibleCall&) = delete;
-  UninterruptibleCall& operator=(const UninterruptibleCall&) = delete;
-};
-
-inline bool inUninterruptibleCall() {
-  return interruption::uninterruptibleCalls > 0;
-}
-
-/// While it lives a signal waits for the end of such calls: a run is complete, and its result is to be kept.
-struct KeepsResult {
-  KeepsResult() { interruption::uninterruptibleCalls -= many; }
-  ~KeepsResult() { interruption::uninterruptibleCalls += many; }
-  KeepsResult(const KeepsResult&) = delete;
-  KeepsResult& operator=(const KeepsResult&) = delete;
-
- private:
-  static constexpr int many = 1000;
-};
 
 /// While it lives, loops stop when `seconds` from now are over; infinite: never. One at a time.
 class TimeLimit {

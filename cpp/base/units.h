@@ -53,6 +53,7 @@ struct Units {
   [[nodiscard]] std::string penetration() const { return inSpace ? length + "^3" : area(); }
   /// Forces, moments and energies are per depth, or of whole rings and of bodies in space.
   [[nodiscard]] std::string forcePerDepth() const { return perDepth ? force + "/" + length : force; }
+  [[nodiscard]] std::string moment() const { return perDepth ? force : force + " " + length; }
   [[nodiscard]] std::string energyPerDepth() const {
     if (!perDepth) return given ? force + " " + length : "J";
     return given ? force + " " + length + "/" + length : "J/m";

@@ -8,66 +8,29 @@
 #include "bound/pressures.h"
 
 namespace mortier {
-namespace {
 
-bool fits(const EarlierContact& earlier, const MatchedMeshes& meshes, const std::vector<Vector>& spread) {
-  const bool gaps = earlier.gaps.empty() || earlier.gaps.size() == meshes.pieces.size();
-  return gaps && (earlier.pressures.empty() ||
-                  std::equal(earlier.pressures.begin(), earlier.pressures.end(), spread.begin(), spread.end(),
-                             [](const Vector& a, const Vector& b) { return a.size() == b.size(); }));
+Admissible::Admissible(const Model& of, const State& state) : model(of) {
+  obstacle = construct(state);
 }
 
-/// Rows that had no pressure give their force to the nearest that had. \returns whether there is one
-bool pressWhereItDid(const std::vector<Vector>& before, const MatchedMeshes& meshes,
-                     std::vector<Vector>& spread) {
-  std::vector<Vector> widths;
-  widths.reserve(spread.size());
-  for (const Vector& each : spread) widths.emplace_back(Vector::Zero(each.size()));
-  for (const MatchedPiece& piece : meshes.pieces)
-    for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k)
-      widths[piece.interface][piece.rows[k]] += piece.length * (piece.values[k][0] + piece.values[k][1]) / 2;
-  for (size_t i = 0; i < spread.size(); ++i)
-    for (Eigen::Index row = 0; row < spread[i].size(); ++row) {
-      if (before[i][row] > 0 || spread[i][row] == 0) continue;
-      Eigen::Index nearest = -1;
-      for (Eigen::Index other = 0; other < spread[i].size(); ++other)
-        if (before[i][other] > 0 && widths[i][other] > 0 &&
-            (nearest < 0 || std::abs(other - row) < std::abs(nearest - row)))
-          nearest = other;
-      if (nearest < 0) return false;
-      spread[i][nearest] += spread[i][row] * widths[i][row] / widths[i][nearest];
-      spread[i][row] = 0;
-    }
-  return true;
-}
-
-}  // namespace
-
-Admissible::Admissible(const Model& of, const State& state, double weight, const EarlierContact& earlier)
-    : model(of) {
-  obstacle = construct(state, weight, earlier);
-}
-
-std::string Admissible::foreseen(const Model& model, const State& state, double weight) {
+std::string Admissible::foreseen(const Model& model, const State& state) {
   std::vector<SideDatum> distances;
-  return Admissible(model).place(state, weight, distances);
+  return Admissible(model).place(state, distances);
 }
 
 /// The bodies with their data, on meshes that match.
-std::string Admissible::place(const State& state, double weight, std::vector<SideDatum>& distances) {
+std::string Admissible::place(const State& state, std::vector<SideDatum>& distances) {
   for (const Body& body : model.bodies) {
     if (body.degree() != 1) return "displacements are quadratic";
     for (const PrescribedDisplacement& held : body.conditions().displacements)
       if (held.point) return body.name() + " is held at a point";
   }
-  const bool flows = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                 [](const Body& body) { return !body.material().linear(); });
-  meshes = matchedMeshes(model, flows ? std::nullopt : std::optional(state.time));
+  meshes = matchedMeshes(model, state.time);
   if (!meshes.obstacle.empty()) return meshes.obstacle;
 
   bodies.reserve(model.bodies.size());
   for (size_t b = 0; b < model.bodies.size(); ++b)
-    bodies.emplace_back(model, state, meshes.bodies[b], static_cast<int>(b), weight);
+    bodies.emplace_back(model, state, meshes.bodies[b], static_cast<int>(b));
   for (size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].data().curvedSupport) return model.bodies[b].name() + " is held along a curve";
     if (!bodies[b].data().obstacle.empty()) return bodies[b].data().obstacle;
@@ -88,17 +51,14 @@ std::string Admissible::place(const State& state, double weight, std::vector<Sid
     if (!distances[k].linear() && beyondLinear.empty())
       beyondLinear = "the gap is not linear on pieces of the contact line";
   }
-  return flows ? beyondLinear : "";
+  return "";
 }
 
-std::string Admissible::construct(const State& state, double weight, const EarlierContact& earlier) {
+std::string Admissible::construct(const State& state) {
   std::vector<SideDatum> distances;
-  if (std::string fault = place(state, weight, distances); !fault.empty()) return fault;
+  if (std::string fault = place(state, distances); !fault.empty()) return fault;
 
   spread = spreadPressures(model, state, meshes);
-  if (!fits(earlier, meshes, spread)) return "contact of the step before is of other meshes";
-  if (!earlier.pressures.empty() && !pressWhereItDid(earlier.pressures, meshes, spread))
-    return "contact presses where nothing of the line did";
   if (!balancePressures(model, meshes, bodies, spread))
     return "bodies that contact alone holds are not in equilibrium with a pressure that is nowhere negative";
   std::vector<std::array<double, 2>> pressures;
@@ -127,7 +87,7 @@ std::string Admissible::construct(const State& state, double weight, const Earli
     strictness.mismatch /= largest;
   }
   if (!strictness.broken().empty()) return strictness.broken();
-  lifting = lift(bodies, model, meshes.pieces, pressures, earlier.gaps);
+  lifting = lift(bodies, model, meshes.pieces, pressures);
   if (!lifting.obstacle.empty()) return lifting.obstacle;
   strictness.leastGap = leastGapOf(model, meshes.pieces, lifting.displacements);
   if (!strictness.broken().empty()) return strictness.broken();
@@ -145,7 +105,7 @@ std::string Admissible::moveGaps(const std::vector<SideDatum>& distances) {
     const auto pressure = pressureOn(piece, spread);
     const double gap = std::min(lifting.facing[first].gap, lifting.facing[last].gap);
     if (std::max(pressure[0], pressure[1]) == 0 && gap > 0 && -distances[k].least <= gap / 2) {
-      opens = std::min(opens, 1 + distances[k].least / gap);
+      gapFraction = std::min(gapFraction, 1 + distances[k].least / gap);
       continue;
     }
     const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();

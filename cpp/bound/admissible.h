@@ -3,7 +3,6 @@
 // (relaxation.h), and a displacement u^ that penetrates nowhere (lift.h). What makes it strict is checked.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,6 @@
 #include "bound/matched_meshes.h"
 
 namespace mortier {
-
-/// Contact at an earlier time, which has to go on: no gap may be smaller, nothing may press that did not.
-/// Empty where it need not.
-struct EarlierContact {
-  std::vector<std::array<double, 2>> gaps;  ///< at begin and end of each piece [m]
-  std::vector<Vector> pressures;            ///< coefficients of p^
-};
 
 /// Its members refer to each other.
 struct Admissible {
@@ -31,21 +23,20 @@ struct Admissible {
   Lift lifting;                    ///< u^
   Strictness strictness;
   std::string beyondLinear;  ///< the first of the data that is not linear on sides, or constant on triangles
-  double opens = 1;          ///< G of u^ is at least this part of the linear one
+  double gapFraction = 1;    ///< G of u^ is at least this part of the linear one
   double defect = 0;  ///< bound of the energy norm of stresses that carry what rounding leaves [sqrt(J/m)]
 
-  /// \param weight  time step times the scheme's diagonal coefficient, of bodies that flow [s]
-  /// \throws Interrupted
-  Admissible(const Model& of, const State& state, double weight = 0, const EarlierContact& earlier = {});
+  /// \pre all bodies are elastic \throws Interrupted
+  Admissible(const Model& of, const State& state);
   /// The obstacle that model and data are, whatever the solution: the time is that of the state.
-  static std::string foreseen(const Model& model, const State& state, double weight);
+  static std::string foreseen(const Model& model, const State& state);
   Admissible(const Admissible&) = delete;
   Admissible& operator=(const Admissible&) = delete;
 
  private:
   explicit Admissible(const Model& of) : model(of) {}
-  std::string place(const State& state, double weight, std::vector<SideDatum>& distances);
-  std::string construct(const State& state, double weight, const EarlierContact& earlier);
+  std::string place(const State& state, std::vector<SideDatum>& distances);
+  std::string construct(const State& state);
   std::string moveGaps(const std::vector<SideDatum>& distances);
   void addDefect();
 };

@@ -142,12 +142,12 @@ class Reading {
     known.known = {Point(1, 0), Point(0, 1)};
     if (side.boundary < 0) return;
     const int label = mesh_.boundaryLabels[side.boundary];
-    const Fan fan(mesh_, side);
+    const SideTriangle beside(mesh_, side);
     const auto direction = [&](int component) -> Point {
       return component == alongX        ? Point(1, 0)
              : component == alongY      ? Point(0, 1)
-             : component == alongNormal ? fan.outward()
-                                        : Point(fan.along().normalized());
+             : component == alongNormal ? beside.outward()
+                                        : Point(beside.along().normalized());
     };
     for (const PrescribedDisplacement& held : place_.body.conditions().displacements) {
       if (held.label != label) continue;
@@ -157,7 +157,7 @@ class Reading {
       readDisplacement(e, along.value_or(direction(held.component)), held.value);
     }
     for (const Traction& traction : place_.body.conditions().tractions)
-      if (traction.label == label) readTraction(e, fan, direction(traction.component), traction.value);
+      if (traction.label == label) readTraction(e, beside, direction(traction.component), traction.value);
   }
 
   void readDisplacement(int e, const Point& direction, const Datum& value) {
@@ -180,10 +180,10 @@ class Reading {
     moveSide(place_, e, direction, datum, data_);
   }
 
-  void readTraction(int e, const Fan& fan, const Point& direction, const Datum& value) {
+  void readTraction(int e, const SideTriangle& beside, const Point& direction, const Datum& value) {
     const Side& side = place_.sides.all()[e];
-    const SideDatum datum = onSide(value, fan.p, fan.q, t_);
-    const double length = fan.length();
+    const SideDatum datum = onSide(value, beside.p, beside.q, t_);
+    const double length = beside.length();
     for (int end = 0; end < 2; ++end) {
       const Point moment = length * datum.moments[end] * direction;
       data_.known[e].moments[end] += moment;
@@ -196,7 +196,7 @@ class Reading {
     if (!datum.known) return refuse(what + " is not known to be bounded");
     isBeyond(what + " is not linear on sides");
     const int t = side.triangles[0];
-    data_.carried[t] += datum.off * std::sqrt(length) * carriesTraction(fan, place_.compliances[t]);
+    data_.carried[t] += datum.off * std::sqrt(length) * carriesTraction(beside, place_.compliances[t]);
   }
 
   /// The direction, that of a side but for rounded coordinates, along which the supports of both its ends
@@ -237,8 +237,7 @@ class Reading {
     DataOnTriangles atStart(values, 0, triangles);
     const Matrix given = place_.own.initialStress();
     const Matrix heat = place_.own.heated() ? place_.own.thermalStrain(t_) : Matrix();
-    const Matrix none = Matrix::Zero(place_.own.material().components(), place_.own.points());
-    const Linearisation elastic = linearisedLaw(place_.own, none, 0);
+    const Linearisation elastic = elasticLaw(place_.own);
     for (int t = 0; t < triangles; ++t) {
       const int parent = place_.cut.parents[t];
       const std::array<Point, 3> x = cornersOf(t);
@@ -264,7 +263,7 @@ class Reading {
         if (of[c] >= 0) add(atStart, of[c], centre[c], Stress::Unit(c));
       if (place_.own.heated()) {
         const Vector& perKelvin = conditions.expansion.col(parent);
-        PointVector strain = PointVector::Zero(none.rows());
+        PointVector strain = PointVector::Zero(place_.own.material().components());
         strain.head(perKelvin.size()) = perKelvin;
         const Stress stress = -toCartesian(stressOf(elastic, strain, parent).head<3>());
         Eigen::Index at = 0;

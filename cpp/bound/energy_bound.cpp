@@ -4,8 +4,6 @@
 #include <limits>
 
 #include "bound/admissible.h"
-#include "bound/flow_potential.h"
-#include "bound/flowing_body.h"
 #include "bound/quantity_bound.h"
 
 namespace mortier {
@@ -28,24 +26,24 @@ double roundingOf(const LoadedBody& body) {
   return sum;
 }
 
-std::string obstacleOf(const Model& model, double weight) {
-  if (weight > 0) return FlowPotential::obstacleOf(model);
+std::string obstacleOf(const Model& model) {
   for (const Body& body : model.bodies)
     if (body.degree() == 1 && !body.material().linear()) return body.name() + " is viscoplastic";
   return "";
 }
 
-EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals,
-                    double weight) {
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
   EnergyBound result;
-  result.obstacle = obstacleOf(model, weight);
+  result.obstacle = obstacleOf(model);
   if (!result.obstacle.empty()) return result;
-  const Admissible pair(model, state, weight);
+  const Admissible pair(model, state);
   result.obstacle = pair.obstacle;
   result.imbalance = pair.strictness.imbalance;
   result.mismatch = pair.strictness.mismatch;
   if (!result.obstacle.empty()) return result;
-  FlowMisfit all;
+  double stress = 0;
+  double lift = 0;
+  double norm = 0;
   double data = 0;
   double rounding = 0;
   // With what the data leave in a triangle: by Minkowski's inequality.
@@ -54,43 +52,35 @@ EnergyBound boundOf(const Model& model, const State& state, const std::vector<Fu
   };
   for (size_t b = 0; b < pair.bodies.size(); ++b) {
     const LoadedBody& body = pair.bodies[b];
-    if (model.bodies[b].material().linear()) {
-      const BodyData& rest = body.data();
-      all.stress += squares(body.energies(), rest.carried);
-      all.lift += squares(pair.lifting.energies[b], rest.strained);
-      all.norm += body.norm();
-      data += rest.carried.squaredNorm() + rest.strained.squaredNorm();
-    } else {
-      FlowingBody(model.bodies[b]).addStep(state.bodies[b], body, pair.lifting.displacements[b], weight, all);
-    }
-    if (weight == 0) rounding += roundingOf(body);
+    const BodyData& rest = body.data();
+    stress += squares(body.energies(), rest.carried);
+    lift += squares(pair.lifting.energies[b], rest.strained);
+    norm += body.norm();
+    data += rest.carried.squaredNorm() + rest.strained.squaredNorm();
+    rounding += roundingOf(body);
   }
-  result.stress = std::sqrt(all.stress) + pair.defect;
-  result.flow = std::sqrt(all.flow);
-  result.lift = std::sqrt(all.lift);
+  result.stress = std::sqrt(stress) + pair.defect;
+  result.lift = std::sqrt(lift);
   result.gap = pair.lifting.gap;
-  result.norm = std::sqrt(all.norm);
-  result.oscillation = all.norm > 0 ? std::sqrt(data / all.norm) : 0;
-  result.bound = std::sqrt(result.stress * result.stress + all.lift + all.flow + 2 * pair.lifting.gap);
+  result.norm = std::sqrt(norm);
+  result.oscillation = norm > 0 ? std::sqrt(data / norm) : 0;
+  result.bound = std::sqrt(result.stress * result.stress + lift + 2 * pair.lifting.gap);
   if (result.bound * result.bound <= rounding) result.bound = result.stress = result.lift = result.gap = 0;
-  result.strain = std::sqrt(weight * all.fluidity) * result.bound + std::sqrt(all.shift);
-  result.strainNorm = std::sqrt(all.strain);
   result.quantities = enclose(pair, functionals);
   return result;
 }
 
 }  // namespace
 
-EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals,
-                        double weight) {
-  EnergyBound result = boundOf(model, state, functionals, weight);
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+  EnergyBound result = boundOf(model, state, functionals);
   if (!result.obstacle.empty()) result.quantities.assign(functionals.size(), {result.obstacle});
   return result;
 }
 
-std::string foreseenObstacle(const Model& model, const State& state, double weight) {
-  std::string obstacle = obstacleOf(model, weight);
-  return obstacle.empty() ? Admissible::foreseen(model, state, weight) : obstacle;
+std::string foreseenObstacle(const Model& model, const State& state) {
+  const std::string obstacle = obstacleOf(model);
+  return obstacle.empty() ? Admissible::foreseen(model, state) : obstacle;
 }
 
 }  // namespace mortier

@@ -23,8 +23,7 @@ constexpr double depth = 2;
 class Lifting {
  public:
   Lifting(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
-          const std::vector<std::array<double, 2>>& pressure,
-          const std::vector<std::array<double, 2>>& floors)
+          const std::vector<std::array<double, 2>>& pressure)
       : strained_(bodies.size()) {
     for (const LoadedBody& loaded : bodies) {
       const MatchedBody& each = loaded.place();
@@ -40,10 +39,6 @@ class Lifting {
       supportOf_.push_back(std::move(supportOf));
     }
     collect(model, pieces, pressure);
-    floors_.assign(facing_.size(), 0);
-    for (size_t k = 0; k < floors.size(); ++k)
-      for (int end = 0; end < 2; ++end) floors_[facingOfPiece_[k][end]] = floors[k][end];
-    for (size_t i = 0; i < facing_.size(); ++i) facing_[i].gap -= floors_[i];  // counted from there on
     spreadRings();
   }
 
@@ -66,11 +61,7 @@ class Lifting {
       for (const int t : strained_[b]) energies[t] = energyIn(b, t);
       lift.energies.push_back(std::move(energies));
     }
-    for (size_t i = 0; i < facing_.size(); ++i) {
-      Facing& each = facing_[i];
-      each.gap += floors_[i];
-      lift.gap += each.weight * each.gap;
-    }
+    for (const Facing& each : facing_) lift.gap += each.weight * each.gap;
     lift.displacements = displacements_;
     lift.facing = facing_;
     lift.facingOfPiece = facingOfPiece_;
@@ -293,7 +284,6 @@ class Lifting {
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
   std::vector<Facing> facing_;
-  std::vector<double> floors_;
   std::vector<std::array<int, 2>> facingOfPiece_;
   std::vector<Vector> displacements_;  ///< u^ by bodies
   struct Moving {
@@ -305,9 +295,8 @@ class Lifting {
 }  // namespace
 
 Lift lift(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
-          const std::vector<std::array<double, 2>>& pressure,
-          const std::vector<std::array<double, 2>>& floors) {
-  return Lifting(bodies, model, pieces, pressure, floors).result();
+          const std::vector<std::array<double, 2>>& pressure) {
+  return Lifting(bodies, model, pieces, pressure).result();
 }
 
 }  // namespace mortier

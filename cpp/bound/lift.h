@@ -35,9 +35,7 @@ struct Lift {
 };
 
 /// \param pressure  p^ at begin and end of each piece [Pa]
-/// \param floors  below which no gap shall be, at begin and end of each piece; 0 everywhere if empty [m]
 Lift lift(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
-          const std::vector<std::array<double, 2>>& pressure,
-          const std::vector<std::array<double, 2>>& floors = {});
+          const std::vector<std::array<double, 2>>& pressure);
 
 }  // namespace mortier

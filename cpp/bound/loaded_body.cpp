@@ -14,9 +14,6 @@
 namespace mortier {
 namespace {
 
-/// Airy modes of flowing bodies of models with fewer triangles are solved for directly.
-constexpr size_t many = 10000;
-
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
   Eigen::Matrix3d B;
@@ -31,16 +28,15 @@ double sizeOf(const Body& body, const Vector& load, const Vector& left) {
 
 }  // namespace
 
-Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weight) {
+Linearisation elasticLaw(const Body& body) {
   const Material& material = body.material();
   Linearisation law = material.room(body.points());
   const Matrix none = Matrix::Zero(material.components(), body.points());
-  const Matrix& at = material.linear() || weight == 0 ? none : stress;
-  material.linearise({weight, at, none}, at, law, 0, body.points());
+  material.linearise({0, none, none}, none, law, 0, body.points());
   return law;
 }
 
-LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight)
+LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index)
     : place_{model.bodies[index],
              cut,
              {model.bodies[index].name(), cut.mesh,
@@ -51,11 +47,7 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
              {},
              {}},
       modes_(rigidModes(place_.body)) {
-  const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
-  size_t triangles = 0;
-  for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
-  coarse_ = triangles < many;
-  flows_ = weight > 0 && !place_.body.material().linear();
+  const Linearisation law = elasticLaw(model.bodies[index]);
   const Eigen::Matrix3d B = toBasis();
   place_.moduli.reserve(place_.cut.parents.size());
   place_.compliances.reserve(place_.cut.parents.size());
@@ -102,7 +94,7 @@ bool LoadedBody::balance() {
   moments_ = balancedMoments(mesh(), place_.sides, stress, data_.forces, data_.known);
   Relaxation relaxation(mesh(), place_.sides, place_.compliances, stress_, data_.forces, data_.known,
                         moments_);
-  if (!(flows_ && coarse_ && relaxation.minimise())) relaxation.relax();
+  relaxation.relax();
   energies_ = relaxation.energies();
   return true;
 }
@@ -193,7 +185,7 @@ std::vector<double> LoadedBody::tangent() const {
 }
 
 /// Adds what brings finite element stresses into equilibrium with the load; what rounding leaves is taken up
-/// again, which matters where little flows in volume and much in shear.
+/// again.
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force

@@ -61,15 +61,13 @@ struct MatchedBody {
 
 BodyData readData(const MatchedBody& place, double t);
 
-/// The law of a body, linearised at its stresses. \param weight  time step times the scheme's diagonal
-/// coefficient; 0 for elasticity [s]
-Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weight);
+/// The elasticity of a body.
+Linearisation elasticLaw(const Body& body);
 
 class LoadedBody {
  public:
-  /// What it is given must outlive it. \param weight  of linearisedLaw(), by which its stress in equilibrium
-  /// is made near
-  LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight = 0);
+  /// What it is given must outlive it.
+  LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index);
 
   [[nodiscard]] const MatchedBody& place() const { return place_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return place_.cut.mesh; }
@@ -137,9 +135,6 @@ class LoadedBody {
   Matrix modes_;
   std::vector<Stress> stress_;  ///< s, that of the finite elements
   BodyData data_;
-  bool flows_ =
-      false;  ///< its tangents may differ by many orders: iterations would not resolve the stiff part
-  bool coarse_ = false;  ///< the model is
   SideMoments moments_;
   Vector energies_;
 };

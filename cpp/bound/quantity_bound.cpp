@@ -12,7 +12,7 @@
 namespace mortier {
 namespace {
 
-/// Vertices of contact lines: motions there and glue make a dense system (glued_bodies.h).
+/// Vertices of contact lines: motions there and glue make a dense system (GluedBodies).
 constexpr size_t mostFacing = 1000;
 
 /// Integral of two linear functions over a piece.
@@ -81,7 +81,7 @@ class Enclosing {
       result.obstacle = "displacements at a point have none, means of a label have";
     }
     if (functional.kind != Functional::Kind::meanPressure) return result;
-    const Goal other = goalOf(pair_, functional, Against::above);
+    const Goal other = goalOf(pair_, functional, BoundSide::above);
     Enclosure above = enclose(functional, other);
     if (!above.obstacle.empty()) return above;
     std::vector<Vector> between = none();
@@ -180,7 +180,7 @@ class Enclosing {
     if (!glued) return std::nullopt;
     const auto& z = glued->solution.displacements;
     Trial trial;
-    trial.c = glued->c / pair_.opens;
+    trial.c = glued->c / pair_.gapFraction;
     std::vector<LoadedBody> bodies;
     bodies.reserve(pair_.bodies.size());
     for (size_t b = 0; b < pair_.bodies.size(); ++b) bodies.push_back(pair_.bodies[b].unloaded(z[b]));

@@ -38,9 +38,9 @@ struct Goal {
 
 /// Of a mean pressure r shall be continuous, and its weight may jump: p is nowhere negative, so the exact
 /// value is between those of an r that is nowhere above the weight, and of one that is nowhere below.
-enum class Against { below, above };
+enum class BoundSide { below, above };
 
-Goal goalOf(const Admissible& pair, const Functional& functional, Against side = Against::below);
+Goal goalOf(const Admissible& pair, const Functional& functional, BoundSide side = BoundSide::below);
 
 /// Coefficients of q, spread as p^ and zero where it is, |q| <= c p^. \param glue  forces by facing vertices
 /// \param bodies  of z, under their loads. \returns none where no such q is in equilibrium with them

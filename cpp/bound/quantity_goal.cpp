@@ -80,7 +80,7 @@ std::string weigh(const Admissible& pair, const Functional& functional, Vector& 
 }
 
 /// r of a part of the line: at a vertex the least, or the largest, of what each piece there allows.
-void weighPart(const Admissible& pair, const Functional& functional, Against side, Vector& r) {
+void weighPart(const Admissible& pair, const Functional& functional, BoundSide side, Vector& r) {
   std::vector<char> seen(pair.lifting.facing.size(), 0);
   const std::vector<Point>& places = pair.bodies[functional.body].mesh().vertices;
   const double size = functional.part->size();
@@ -93,8 +93,8 @@ void weighPart(const Admissible& pair, const Functional& functional, Against sid
       if (at.body != functional.body || at.label != functional.label) continue;
       const double first = functional.part->along(places[piece.vertices[of][0]]);
       const double last = functional.part->along(places[piece.vertices[of][1]]);
-      values =
-          side == Against::below ? functional.part->below(first, last) : functional.part->above(first, last);
+      values = side == BoundSide::below ? functional.part->below(first, last)
+                                        : functional.part->above(first, last);
     }
     for (int end = 0; end < 2; ++end) {
       const int i = pair.lifting.facingOfPiece[k][end];
@@ -102,7 +102,7 @@ void weighPart(const Admissible& pair, const Functional& functional, Against sid
       if (std::exchange(seen[i], 1) == 0)
         r[i] = value;
       else
-        r[i] = side == Against::below ? std::min(r[i], value) : std::max(r[i], value);
+        r[i] = side == BoundSide::below ? std::min(r[i], value) : std::max(r[i], value);
     }
   }
 }
@@ -123,7 +123,7 @@ int triangleAt(const TriangleMesh& mesh, const Point& x) {
 
 }  // namespace
 
-Goal goalOf(const Admissible& pair, const Functional& functional, Against side) {
+Goal goalOf(const Admissible& pair, const Functional& functional, BoundSide side) {
   Goal goal;
   for (const LoadedBody& body : pair.bodies) {
     goal.held.emplace_back(Vector::Zero(body.body().dofs()));

@@ -9,7 +9,7 @@
 //   b_P = J (mean - grad Phi(P)),   b_Q = J (grad Phi(Q) - mean),
 //   mean = ((Phi(Q) - Phi(P))/L) tau + (mean normal derivative) n.
 //
-// Conjugate gradients lower the energy of the difference (airy_system.h); every iterate is in equilibrium, so
+// Conjugate gradients lower the energy of the difference (AirySystem); every iterate is in equilibrium, so
 // they may stop at any time.
 #pragma once
 

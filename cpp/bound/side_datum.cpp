@@ -4,6 +4,8 @@
 #include <cmath>
 #include <queue>
 
+#include "base/quadrature_rules.h"
+
 namespace mortier {
 namespace {
 
@@ -25,10 +27,6 @@ struct Piece {
 
 /// Gauss with four points: the error is at most this times width^9 |f^(8)|/8!.
 constexpr double gaussError = 2.3e-5;
-constexpr std::array<double, 4> gaussAt{0.069431844202973712, 0.330009478207571868, 0.669990521792428132,
-                                        0.930568155797026288};
-constexpr std::array<double, 4> gaussWeight{0.173927422568726929, 0.326072577431273071, 0.326072577431273071,
-                                            0.173927422568726929};
 
 class Resolving {
  public:
@@ -79,9 +77,9 @@ class Resolving {
 
  private:
   void integrate(Piece& piece) const {
-    for (int i = 0; i < 4; ++i) {
-      const double s = piece.begin + gaussAt[i] * piece.width();
-      const double part = gaussWeight[i] * piece.width() * at(s);
+    for (const auto& [place, weight] : gaussFour) {
+      const double s = piece.begin + place * piece.width();
+      const double part = weight * piece.width() * at(s);
       piece.moments[0] += (1 - s) * part;
       piece.moments[1] += s * part;
     }

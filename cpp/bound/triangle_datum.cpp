@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quadrature_rules.h"
+
 namespace mortier {
 namespace {
 
@@ -14,17 +16,13 @@ double meanSquare(const Eigen::Vector3d& v) {
   return (v.squaredNorm() + v.sum() * v.sum()) / 12;
 }
 
-/// Of degree 5 (Radon), beside the centroid: weight, the coordinate that differs.
-constexpr std::array<std::array<double, 2>, 2> rule{
-    {{0.132394152788506181, 0.059715871789769820}, {0.125939180544827153, 0.797426985353087322}}};
-
 /// A part of a triangle by the barycentric coordinates of its corners.
 struct Part {
   Eigen::Matrix3d corners;  ///< columns
   double share = 1;
   Eigen::Vector3d values;
   double off = 0;    ///< |f - linear between its corners| at most
-  double error = 0;  ///< the same of f and a polynomial of degree 4, or of what the rule makes of f
+  double error = 0;  ///< the same of f and a polynomial of degree 4, or of its integral by Radon's rule
 };
 
 std::array<Eigen::Matrix3d, 4> quarters(const Eigen::Matrix3d& c) {
@@ -119,14 +117,10 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
   const auto project = [&] {
     Eigen::Vector3d moments = Eigen::Vector3d::Zero();  // over the area
     for (const Part& part : parts) {
-      const Eigen::Vector3d centre = part.corners.rowwise().mean();
-      moments += part.share * 0.225 * at(centre) * centre;
-      for (const auto& [weight, own] : rule)
-        for (int k = 0; k < 3; ++k) {
-          const Eigen::Vector3d x =
-              (1 - own) / 2 * part.corners.rowwise().sum() + (3 * own - 1) / 2 * part.corners.col(k);
-          moments += part.share * weight * at(x) * x;
-        }
+      for (const auto& [place, weight] : radonSeven) {
+        const Eigen::Vector3d x = part.corners * Eigen::Map<const Eigen::Vector3d>(place.data());
+        moments += part.share * weight * at(x) * x;
+      }
     }
     const Eigen::Vector3d linear = 12 * moments.array() - 3 * moments.sum();
     for (int k = 0; k < 3; ++k) result.linear[k] = linear[k];

@@ -38,35 +38,36 @@ double diameter(const std::array<Point, 3>& x) {
 double carriesForce(const std::array<Point, 3>& x, const Eigen::Matrix3d& compliance) {
   return diameter(x) / std::numbers::pi * std::sqrt(korn(x) * largestEigenvalue(compliance));
 }
-double carriesTraction(Fan fan, const Eigen::Matrix3d& compliance) {
-  const Point middle = (fan.p + fan.q) / 2;
+double carriesTraction(SideTriangle triangle, const Eigen::Matrix3d& compliance) {
+  const Point middle = (triangle.p + triangle.q) / 2;
   double least = infinity;
   do {
-    const double poincare = diameter(fan.corners()) / std::numbers::pi;
-    const double reach = std::max((fan.p - fan.c).norm(), (fan.q - fan.c).norm());
-    least = std::min(least, 2 / fan.height() * poincare * (poincare + reach) * korn(fan.corners()));
-    fan.c = (fan.c + middle) / 2;
-  } while (4 * fan.height() > fan.length());
+    const double poincare = diameter(triangle.corners()) / std::numbers::pi;
+    const double reach = std::max((triangle.p - triangle.c).norm(), (triangle.q - triangle.c).norm());
+    least = std::min(least, 2 / triangle.height() * poincare * (poincare + reach) * korn(triangle.corners()));
+    triangle.c = (triangle.c + middle) / 2;
+  } while (4 * triangle.height() > triangle.length());
   return std::sqrt(least * largestEigenvalue(compliance));
 }
 
 double movedEnergy(const MatchedBody& place, int side, const Point& along, const SideDatum& datum) {
-  const Fan fan(place.cut.mesh, place.sides.all()[side]);
+  const SideTriangle triangle(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
   const Eigen::Matrix3d& E = place.moduli[t];
-  const double twiceArea = fan.length() * fan.height();
+  const double twiceArea = triangle.length() * triangle.height();
   const auto energy = [&](const Point& g) {
     const Eigen::Vector3d strain = symmetricPart(along, g);
     return strain.dot(E * strain);
   };
   // x = c + rho (p + s (q - p) - c): grad rho = m, grad s = g(s)/rho, g linear in s.
-  const Point m = fan.outward() / fan.height();
+  const Point m = triangle.outward() / triangle.height();
   const auto g = [&](const Point& end) -> Point {
-    const Point d = end - fan.c;
+    const Point d = end - triangle.c;
     return Point(-d.y(), d.x()) / twiceArea;
   };
   // The energy of g is convex along the side.
-  const double bySlope = datum.slopeMoments[0] * energy(g(fan.p)) + datum.slopeMoments[1] * energy(g(fan.q));
+  const double bySlope =
+      datum.slopeMoments[0] * energy(g(triangle.p)) + datum.slopeMoments[1] * energy(g(triangle.q));
   const double byValue = datum.off * datum.off * energy(m);
   // w = datum rho^k with the best k; the product of both parts has byValue/2.
   return std::sqrt(twiceArea * (std::sqrt(bySlope * byValue) + byValue / 2));
@@ -74,16 +75,16 @@ double movedEnergy(const MatchedBody& place, int side, const Point& along, const
 
 void moveSide(const MatchedBody& place, int side, const Point& along, const SideDatum& datum,
               BodyData& data) {
-  const Fan fan(place.cut.mesh, place.sides.all()[side]);
+  const SideTriangle triangle(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
   data.strained[t] += movedEnergy(place, side, along, datum);
   constexpr double rounding = 1e-14;
   const double integral =
-      fan.length() * (datum.moments[0] + datum.moments[1] - (datum.ends[0] + datum.ends[1]) / 2);
+      triangle.length() * (datum.moments[0] + datum.moments[1] - (datum.ends[0] + datum.ends[1]) / 2);
   data.moved.push_back({place.cut.mesh.boundaryLabels[place.sides.all()[side].boundary], integral * along,
-                        fan.length() * (2 * datum.momentError + rounding * datum.size)});
+                        triangle.length() * (2 * datum.momentError + rounding * datum.size)});
   // Integral of E eps(w): w vanishes on the other sides.
-  data.meanStrained[t] += toCartesian(place.moduli[t] * symmetricPart(along, fan.outward())) * integral;
+  data.meanStrained[t] += toCartesian(place.moduli[t] * symmetricPart(along, triangle.outward())) * integral;
 }
 
 }  // namespace mortier

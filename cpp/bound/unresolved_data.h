@@ -9,10 +9,10 @@
 namespace mortier {
 
 /// A triangle with a side from p to q, the body to the left, and the vertex c opposite.
-struct Fan {
+struct SideTriangle {
   Point p, q, c;
 
-  Fan(const TriangleMesh& mesh, const Side& side)
+  SideTriangle(const TriangleMesh& mesh, const Side& side)
       : p(mesh.vertices[side.vertices[0]]), q(mesh.vertices[side.vertices[1]]) {
     for (const int v : mesh.triangles[side.triangles[0]])
       if (v != side.vertices[0] && v != side.vertices[1]) c = mesh.vertices[v];
@@ -27,7 +27,7 @@ struct Fan {
 /// |s_D| of a force per area that works on no linear displacement, over its norm. \param x  corners
 double carriesForce(const std::array<Point, 3>& x, const Eigen::Matrix3d& compliance);
 /// The same of a traction on a side, in the best of some triangles over it inside of this one.
-double carriesTraction(Fan fan, const Eigen::Matrix3d& compliance);
+double carriesTraction(SideTriangle triangle, const Eigen::Matrix3d& compliance);
 
 /// Adds a displacement w = datum times `along` on a side of the boundary. \param side  of MatchedBody::sides
 void moveSide(const MatchedBody& place, int side, const Point& along, const SideDatum& datum, BodyData& data);

@@ -9,7 +9,6 @@
 #include "base/digits.h"
 #include "base/printable.h"
 #include "bound/energy_bound.h"
-#include "bound/flow_bound.h"
 #include "commands/command_line.h"
 #include "commands/freefem.h"
 #include "lint/lint.h"
@@ -72,12 +71,6 @@ void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) 
   end.time = scene.time.end;
   if (!(why = foreseenObstacle(model, end)).empty())
     plan.push_back({"accuracy", false, "a guaranteed bound of the error of the whole run's stress", why});
-  const bool flows = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                 [](const Body& body) { return !body.material().linear(); });
-  if (flows && scene.time.scheme != Scheme::backwardEuler)
-    plan.push_back({"accuracy", false, "a guaranteed bound of the error of the steps", otherScheme});
-  if (flows && !(why = foreseenObstacle(model, end, scene.time.end)).empty())
-    plan.push_back({"accuracy", false, "a guaranteed bound of the error of a step and of the run", why});
 }
 
 /// \returns the exit code that a run would have, 0 where there are warnings only
@@ -106,7 +99,7 @@ int check(const SceneOptions& command, bool json) {
 
 Command addCheck(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "check", "say what a run would model and leave out, and what is wrong or doubtful (docs/check.md)");
+      "check", "check a scene without solving it: what a run models, errors, warnings (docs/check.md)");
   const auto scene = std::make_shared<SceneOptions>();
   scene->addScene(*command);
   scene->addSettings(*command);

@@ -178,7 +178,8 @@ std::string script(const SceneDescription& scene, const Model& model,
     out << "macro rigidTools yes //  the bodies after the first so many\nint strainingBodies = " << strains
         << ";\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
-  if (!scene.inSpace()) out << freefemMaterials(scene) << freefemPatches(model);
+  if (!scene.inSpace()) out << freefemMaterials(scene);
+  out << freefemPatches(model);
   out << "\n// Boundary conditions and loads, functions of x, y" << (scene.inSpace() ? ", z" : "")
       << " and t\n";
   for (int b = 0; b < bodies; ++b) out << freefemConditions(scene, model, b);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "commands/freefem.h"
+#include "contact/directions.h"
 #include "contact/smooth_part.h"
 #include "contact/surface.h"
 #include "scene/document.h"
@@ -74,6 +75,14 @@ void requireStraightSides(const SceneDescription& scene, const Model& model) {
   }
 }
 
+/// Whether contact is at a corner or an end of a line, along the normal of the other one.
+bool isAtCorner(const SmoothPart& part, const BoundaryLine& across) {
+  const ContactDirections directions = contactDirections(part, MortarLine(across));
+  const std::vector<double>& share = directions.mortarShare;
+  return !directions.corners.empty() ||
+         (part.straight && std::any_of(share.begin(), share.end(), [](double each) { return each > 0; }));
+}
+
 /// \throws InputError where a line of contact has corners that count, is closed on the nonmortar side or is
 /// made of several curves.
 void requireSmooth(const SceneDescription& scene, const Model& model) {
@@ -101,6 +110,10 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
     if (!isOneCurve(parts.front()) || !std::all_of(across.begin(), across.end(), isOneCurve))
       refuse(scene.contacts[k].where + ": contact: a line of several curves",
              "one circle, one straight line, or a polygon");
+    const ContactSide& mortar = pair.mortar;
+    if (isAtCorner(parts.front(), boundaryLine(model.bodies[mortar.body].mesh(), mortar.label)))
+      refuse(contact.where + ": contact: a corner or an end of a line that touches the other one",
+             "sides along each other");
   }
 }
 

@@ -177,7 +177,7 @@ std::string freefemPatches(const Model& model) {
     }
     text += "patchesOf(" + std::to_string(b + 1) + ", " + name + ") ";
   }
-  return freefemMacro("averaged", text, "body, of its triangles the patch, from 0") + numbers;
+  return freefemMacro("averaged", text, "body, of its elements the patch, from 0") + numbers;
 }
 
 }  // namespace mortier

@@ -9,6 +9,7 @@
 #include "base/checksum.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "linear/distributed_engine.h"
 #include "mesh/read.h"
 #include "plan/estimate_doubts.h"
 #include "plan/loads.h"
@@ -60,17 +61,17 @@ std::string lawOf(const BodyDescription& description, const Body& body, int tria
   return laws[index].text();
 }
 
-/// "; furthest off ..." where that is known.
+/// "; largest residual ..." where that is known.
 std::string whereToLook(const Attempt& attempt) {
   const std::optional<StuckPlace>& stuck = attempt.solved.report.stuck;
   if (!stuck) return "";
   const Body& body = attempt.model->bodies[stuck->body];
   const std::string& driving = attempt.facts.driving;
   const bool space = body.space() != nullptr;
-  return "; furthest off its law, " + lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) +
-         ", is body " + body.name() + " at " + placeText(stuck->at, body.dimension()) +
-         (space ? ", tetrahedron " : ", triangle ") + std::to_string(stuck->triangle) +
-         (driving.empty() ? "" : "; what drives the step is " + driving);
+  return "; largest residual of the law, " +
+         lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) + ": body " + body.name() +
+         " at " + placeText(stuck->at, body.dimension()) + (space ? ", tetrahedron " : ", triangle ") +
+         std::to_string(stuck->triangle) + (driving.empty() ? "" : "; loading: " + driving);
 }
 
 /// The rounds of a scene with an accuracy.
@@ -105,30 +106,24 @@ Run::Run(ResolvedScene scene, RunOptions options, std::optional<StoppedRun> stop
     : options_(std::move(options)),
       stopped_(std::move(stopped)),
       rounds_(roundsOf(scene)),
-      attempt_(std::make_shared<Attempt>(rounds_ ? rounds_->scene() : std::move(scene), attemptOptions())),
+      attempt_(std::make_shared<Attempt>(rounds_ ? rounds_->scene() : std::move(scene), options_.threads)),
       log_(options_.quiet, attempt_->scene().time.end),
       rows_(options_.quiet || rounds_, attempt_->scene().time.end) {
-  if (waitsForFirstRank()) return;
-  if (!attempt_->whyNotShared.empty()) firstRankOnly_.emplace();
-  if (!Ranks::all().first() || options_.out.empty()) return;
+  if (options_.out.empty()) return;
   identity_ = identityOf(attempt_->scene(), *attempt_->model);
   if (!stopped_) return;
   requireSame(stopped_->checkpoint.identity, identity_, stopped_->folder);
   requireFits(stopped_->checkpoint, *attempt_->model, stopped_->folder, attempt_->facts.quantities.size());
 }
 
-bool Run::waitsForFirstRank() const {
-  return !attempt_->whyNotShared.empty() && !Ranks::all().first();
-}
-
 std::string Run::settle() const {
   if (resumes()) return "";
-  return findInitialEquilibrium(attempt_->scene(), attempt_->solvedModel(), attempt_->solved.state);
+  return findInitialEquilibrium(attempt_->scene(), *attempt_->model, attempt_->solved.state);
 }
 
 void Run::open() {
   const Attempt& first = *attempt_;
-  if (Ranks::all().first() && !options_.out.empty()) {
+  if (!options_.out.empty()) {
     if (stopped_)
       folder_.emplace(options_.out, stopped_->folder, std::move(stopped_->lock));
     else
@@ -148,7 +143,9 @@ void Run::open() {
   log_.print("memory     " + aboutMemory(need.all) + ofFriction +
              (single ? ", factors in single precision, corrected" : "") +
              (rounds_ ? ", first meshes\n" : "\n"));
-  if (firstRankOnly_) log_.print("ranks      the first one alone: " + first.whyNotShared + "\n");
+  if (const DistributedEngine* engine = DistributedEngine::ofProgram())
+    log_.print("factors    by MUMPS " + engine->version() + " in " + std::to_string(engine->processes()) +
+               " processes" + (options_.factors.empty() ? "" : ", kept in " + options_.factors) + "\n");
   log_.print(logHeader(first.facts, *first.model));
   log_.print(rounds_ ? logRoundsHeader(*first.model) : logStepsHeader(first.facts.units));
 }
@@ -163,12 +160,9 @@ void Run::solve(Observe observe) {
   try {
     solveRounds();
   } catch (const Interrupted&) {
-    throw InterruptedError(interruptedBetweenRounds());
+    throw InterruptedError(attempt_->scene().path + ": interrupted between rounds" +
+                           (temporary_.empty() ? "" : resumeHint_));
   }
-}
-
-std::string Run::interruptedBetweenRounds() const {
-  return attempt_->scene().path + ": interrupted between rounds" + (temporary_.empty() ? "" : resumeHint_);
 }
 
 /// Adds what spoils the estimates, whether the run has the accuracy that was asked for, and bounds.
@@ -184,15 +178,19 @@ void Run::addVerdict() {
     for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
       facts.doubts.push_back(doubt);
   }
-  for (const std::string& doubt :
-       contactDoubts(*attempt_->model, solved.state, solved.report.peaks.contactForce.value))
-    facts.doubts.push_back(doubt);
+  for (const ContactDoubt& doubt :
+       contactDoubts(*attempt_->model, solved.state, solved.report.peaks.contactForce.value)) {
+    facts.doubts.push_back(doubt.text);
+    for (size_t i = 0; i < solved.accuracy.quantities.size() && i < solved.last.quantities.size(); ++i)
+      if (leavesUnknown(doubt, facts.quantities[i], attempt_->scene().quantities[i].part.has_value(),
+                        *attempt_->model))
+        withdraw(solved.accuracy.quantities[i], solved.last.quantities[i], "contact there is not resolved");
+  }
   if (const RunReport& report = solved.report;
       report.peaks.contactForce.value == 0 && !report.overlap.explained)
     facts.doubts.push_back(report.overlap.words);
   if (complete && attempt_->scene().accuracy.bound && !solved.accuracy.bound)
     solved.accuracy.bound = boundOf(*attempt_);
-  if (complete && solved.accuracy.flow) solved.accuracy.step = stepBoundOf(*attempt_);
   if (!rounds_) return;
   for (const std::string& doubt : rounds_->doubts()) facts.doubts.push_back(doubt);
   facts.reached = complete && shortfall_.empty();
@@ -231,8 +229,11 @@ Ending Run::ending() const {
                           " result is in " + (placed_.empty() ? "memory" : placed_)};
 }
 
+std::vector<std::string> Run::warnings() const {
+  return warningsOf(attempt_->solved.report, *attempt_->model, attempt_->facts.units);
+}
+
 Ending Run::finish() {
-  if (!Ranks::all().first()) return {ending().code};
   addVerdict();
   summary_ = summaryText(folder_ ? temporary_ + "/summary.json" : "summary", attempt_->facts,
                          *attempt_->model, attempt_->solved);

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "adapt/rounds.h"
-#include "base/ranks.h"
 #include "commands/attempt.h"
 #include "commands/command_line.h"
 #include "report/checkpoint.h"
@@ -30,7 +29,8 @@ struct RunOptions {
   std::string out;         ///< folder of the result; empty: memory only
   double checkpoint = 30;  ///< wall time between checkpoints [s]; 0: one a step
   int threads = 1;
-  bool quiet = true;  ///< no log
+  std::string factors = {};  ///< folder of the factors of `mortier-mpi`; empty: in memory
+  bool quiet = true;         ///< no log
 };
 
 /// A stopped run to resume.
@@ -57,8 +57,6 @@ class Run {
   /// Builds the model, of the first round. \throws InputError, UnheldBodyError
   Run(ResolvedScene scene, RunOptions options, std::optional<StoppedRun> stopped = {});
 
-  /// Whether this rank has nothing to do: the run is not shared.
-  [[nodiscard]] bool waitsForFirstRank() const;
   /// Whether it continues at a checkpoint; rounds begin again.
   [[nodiscard]] bool resumes() const { return stopped_ && !rounds_; }
   /// Lets the data of t = 0 act. \returns what a user may not have meant of it (scene/build.h)
@@ -70,7 +68,8 @@ class Run {
   /// Puts the result in place and prints the end of the log. \throws OutputError
   Ending finish();
 
-  [[nodiscard]] std::string interruptedBetweenRounds() const;
+  /// What the log of a run that has ended warns of.
+  [[nodiscard]] std::vector<std::string> warnings() const;
   /// The round that is solved, in the end that of the result.
   [[nodiscard]] const std::shared_ptr<Attempt>& attempt() const { return attempt_; }
   /// Once it is finished: summary.json, and the folder of the result, empty where it is in memory only.
@@ -86,7 +85,6 @@ class Run {
   Rounds::Verdict solveRound(const std::shared_ptr<Attempt>& attempt, std::vector<RoundFacts>& done);
   void solveRounds();
   // run.cpp
-  [[nodiscard]] AttemptOptions attemptOptions() const { return {options_.threads, Ranks::all().shared()}; }
   void addVerdict();
   void putInPlace();
   [[nodiscard]] Ending ending() const;
@@ -95,7 +93,6 @@ class Run {
   std::optional<StoppedRun> stopped_;
   std::optional<Rounds> rounds_;
   std::shared_ptr<Attempt> attempt_;
-  std::optional<FirstRankOnly> firstRankOnly_;
   RunIdentity identity_;
   std::optional<OutputFolder> folder_;
   std::string temporary_;   ///< folder of the result files; empty: none are written

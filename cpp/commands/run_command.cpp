@@ -6,13 +6,14 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "commands/run.h"
+#include "linear/distributed_engine.h"
 #include "lint/lint.h"
 #include "scene/keys.h"
 
@@ -27,17 +28,18 @@ struct RunCommand : SceneOptions {
   RunOptions options;   ///< `out` empty: out/<scene>
 };
 
-/// What a signal says that ends the process at once.
-std::atomic<const char*> atOnce = nullptr;
+/// Whether the folder of the result is there.
+std::atomic<bool> isOpen = false;
 
-/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
-/// first where a library would not hear of it (before the first step).
+/// The first Ctrl-C ends the run with a checkpoint of its last step, a second one kills. Before there is
+/// anything to keep, the first one ends the process.
 void onInterrupt(int signal) {
-  if (inUninterruptibleCall()) {
-    static_cast<void>(!write(STDERR_FILENO, atOnce, std::strlen(atOnce)));
+  if (!isOpen) {
+    constexpr std::string_view told = "mortier: interrupted before the first step; nothing was written\n";
+    static_cast<void>(!write(STDERR_FILENO, told.data(), told.size()));
     _exit(exitFailed);
   }
-  if (!Ranks::all().interrupt()) requestInterrupt();
+  requestInterrupt();
   std::signal(signal, SIG_DFL);
 }
 
@@ -63,22 +65,13 @@ void repeatRequest(const RunIdentity& stored, RunCommand& command) {
   command.settings = stored.settings;
 }
 
-/// The stopped run that --restart names, on all ranks; none when the run was complete.
-std::optional<StoppedRun> stoppedRun(const std::string& restart) {
-  Ranks& ranks = Ranks::all();
-  std::optional<StoppedRun> stopped;
-  if (ranks.first()) stopped = findStoppedRun(restart);
-  const std::string folder = textOfFirst(ranks, stopped ? stopped->folder : "");
-  if (!ranks.first() && !folder.empty()) stopped = StoppedRun{folder, {}, readCheckpoint(folder)};
-  return stopped;
-}
-
 /// \returns the exit code. \throws InputError, UnheldBodyError, OutputError, InterruptedError
 int runScene(RunCommand command) {
   // 1. The scene, and the model it describes.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   std::optional<StoppedRun> stopped;
   if (!command.restart.empty()) {
-    stopped = stoppedRun(command.restart);
+    stopped = findStoppedRun(command.restart);
     if (!stopped) {
       warn(command.restart + ": the run was complete, its result is now in place");
       return exitDone;
@@ -87,32 +80,32 @@ int runScene(RunCommand command) {
     command.options.out = command.restart;
   }
   if (command.options.out.empty()) command.options.out = defaultFolder(command.scene);
+  if (!command.options.factors.empty()) {
+    DistributedEngine* engine = DistributedEngine::ofProgram();
+    if (engine == nullptr)
+      throw InputError("--factors: expected mortier-mpi, mortier keeps its factors in memory");
+    engine->keepFactorsIn(command.options.factors);
+  }
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   Faults doubts = lintResolved(resolved);
   Run run(std::move(resolved), command.options, std::move(stopped));
-  if (run.waitsForFirstRank()) return exitDone;
   const SceneDescription& scene = run.attempt()->scene();
-  if (Ranks::all().first()) lintModel(scene, *run.attempt()->model, doubts);
+  lintModel(scene, *run.attempt()->model, doubts);
   lintSettling(scene, run.settle(), doubts);
 
   // 2. Where the result goes, and what is reported.
-  atOnce = "mortier: interrupted before the first step; nothing was written\n";
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
+  isOpen = true;
   run.open();
-  const double end = scene.time.end;
-  const bool inRounds = scene.accuracy.asked() > 0;
   warnOf(doubts);
   if (!command.restart.empty() && !run.resumes()) warn(command.restart + ": the rounds begin again");
 
   // 3. The march in time; where an accuracy is asked for, in rounds.
-  static std::string betweenRounds;
-  betweenRounds = "mortier: " + run.interruptedBetweenRounds() + "\n";
-  run.solve([&](const auto&, const State& state, const StepReport&) {
-    if (inRounds && state.time >= end) atOnce = betweenRounds.c_str();
-  });
+  run.solve();
 
   // 4. The result in place of an older one, and how well it holds.
   const Ending ending = run.finish();
+  if (command.options.quiet && ending.code == exitDone)
+    for (const std::string& warning : run.warnings()) warn(command.scene + ": " + warning);
   if (!ending.reason.empty()) complain(ending.reason);
   return ending.code;
 }
@@ -145,10 +138,14 @@ Command addRun(CLI::App& app) {
   run->add_option("--threads", options.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+  run->add_option("--factors", options.factors,
+                  "folder in which mortier-mpi keeps its factors (default: memory)")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
   run->add_flag_callback(
       "--list-solutions", [=] { command->settings.emplace_back("solver.list_solutions=true"); },
       helpOf(keyAt("solver", "list_solutions")));
-  run->add_flag("--quiet", options.quiet, "no log and no progress bar");
+  run->add_flag("--quiet", options.quiet, "no log and no progress bar: messages on standard error alone");
   return {run, [command] {
             if (command->restart.empty() || !command->settings.empty()) command->requireScene();
             return runScene(*command);

@@ -8,7 +8,6 @@
 #include "report/clock.h"
 #include "report/result_files.h"
 #include "solver/model.h"
-#include "time/parts_of_run.h"
 
 namespace mortier {
 
@@ -31,17 +30,14 @@ void Run::writeCheckpoint(const Checkpoint& checkpoint) {
 void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObserve) {
   Attempt& now = *attempt;
   const SceneDescription& scene = now.scene();
-  const Model& model = *now.model;               // of whole bodies, on the first rank
-  const Model& solvedModel = now.solvedModel();  // that of this rank: the same, or in parts
-  const bool inParts = solvedModel.inParts();
-  const bool writes = Ranks::all().first();
-  const bool toFiles = writes && !temporary_.empty();
-  CurrentSpaceError& error = *now.error;
+  const Model& model = *now.model;
+  const bool toFiles = !temporary_.empty();
+  CurrentMeshError& error = *now.error;
   Solved& solved = now.solved;
   StepReport& last = solved.last;
   State& state = solved.state;
-  std::optional<ResultFiles> files;  // where this rank writes
-  FilesSoFar empty;                  // before the first step
+  std::optional<ResultFiles> files;
+  FilesSoFar empty;  // before the first step
   MarchMemory memory;
   AccuracyMemory accuracySoFar;
   if (resumes()) {
@@ -49,50 +45,26 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     if (toFiles) files.emplace(temporary_, model, error, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
-    state = inParts ? ofParts(solvedModel, stopped.state) : std::move(stopped.state);
-    memory = inParts ? ofParts(solvedModel, stopped.memory) : std::move(stopped.memory);
+    state = std::move(stopped.state);
+    memory = std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
   } else if (toFiles) {
     files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units);
   }
-  if (!inParts) error.moveTo(state);
+  error.moveTo(state);
   AccuracyRecord accuracies(model, error, accuracySoFar);
-  std::optional<FlowBoundRecord> flow;
-  std::optional<TotalBoundRecord> total;
-  if (scene.accuracy.bound && FlowBoundRecord::applies(model)) {
-    flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
-                 accuracySoFar.flow);
-    total.emplace(model, state, accuracySoFar.total);
-  }
 
   Threads threads(threadsFor(model, now.facts.threads));
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
   MarchMemory keptMemory = memory;
-  // What all ranks have together, on the first one: gathered into `space` where bodies are in parts.
-  const auto whole = [&]<class T>(const T& own, std::optional<T>& space) -> const T& {
-    return inParts ? space.emplace(gathered(solvedModel, own)) : own;
-  };
-  const auto releaseGathered = [&] {
-    if (inParts) solvedModel.ranks->releaseFreeMemory();
-  };
   const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
-    {
-      std::optional<State> stateSpace;
-      std::optional<MarchMemory> memorySpace;
-      const State& wholeState = whole(at, stateSpace);
-      const MarchMemory& wholeMemory = whole(with, memorySpace);
-      if (writes) writeCheckpoint({identity_, empty, written, last, wholeState, wholeMemory, accuracySoFar});
-    }
-    releaseGathered();
+    writeCheckpoint({identity_, empty, written, last, at, with, accuracySoFar});
   };
   const Observer observe = [&](const State&, const StepReport& report) {
-    if (total) total->look(state, report.step);  // what may be interrupted comes first
     const bool restarted = report.step == 0 && memory.controller.trial > 1;
     const bool kept = scene.every > 0 && report.step % scene.every == 0;
     const bool mayBeSaved = !rounds_ && report.step > 0 && state.time < scene.time.end;
-    // What the first rank decides for all of them.
-    const auto asked = [&](bool own) { return inParts ? numberOfFirst(Ranks::all(), own ? 1 : 0) > 0 : own; };
     if (restarted) {
       // The checkpoint before the files are cut: one with their old lengths would be of no use.
       rows_.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
@@ -104,19 +76,9 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
       removeFields(temporary_, written, empty);
       if (toFiles) files.emplace(temporary_, model, error, empty);
     }
-    if (asked(kept || accuracies.needs(report, kept))) {
-      {
-        std::optional<State> space;
-        const State& at = whole(state, space);
-        if (writes) error.moveTo(at);
-        if (files && !restarted) files->add(at, report, kept);
-        if (writes) accuracies.add(report, kept);
-      }
-      releaseGathered();
-    } else {
-      error.moveTo(state);
-      if (files && !restarted) files->add(state, report, kept);
-    }
+    error.moveTo(state);
+    if (files && !restarted) files->add(state, report, kept);
+    if (kept || accuracies.needs(report, kept)) accuracies.add(report, kept);
     if (!restarted && report.step == 0) {
       if (files) empty = files->sync();
       if (rounds_ && now.facts.rounds.empty()) {  // whatever later rounds write, one checkpoint serves them
@@ -127,13 +89,9 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     if (alsoObserve) alsoObserve(state, report);
     if (observe_) observe_(attempt, state, report);
     if (hasRow(report)) rows_.step(report);
-    rows_.print(logDeformation(memory.run.peaks, now.facts.units, keptMemory.run.peaks));
+    rows_.print(asLines(deformationWarnings(memory.run.peaks, now.facts.units, keptMemory.run.peaks)));
     last = report;
-    if (flow) {
-      flow->add(state, report);
-      total->add(accuracySoFar.flow.obstacle);
-    }
-    if (asked(mayBeSaved && files && checkpointIsDue())) save(files ? files->sync() : empty, state, memory);
+    if (mayBeSaved && files && checkpointIsDue()) save(files->sync(), state, memory);
     threads.forEach(2, [&](int i) {
       if (i == 0)
         keptState = state;
@@ -145,16 +103,15 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
   const auto saveLast = [&] {
     rows_.finish();
     const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
-    if (!begun || rounds_ || (inParts && !Ranks::all().answer())) return;
+    if (!begun || rounds_) return;
     save(files ? files->sync() : empty, keptState, keptMemory);
   };
   std::vector<QuantityError>& errors = solved.accuracy.quantities;
   const AtEnd atEnd = [&](StepTaker& taker) {
-    if (!inParts)  // rounds show how quantities change
-      errors = quantityErrors(now.facts.quantities, model, rounds_ ? nullptr : &taker, memory.begin, error);
+    errors = quantityErrors(now.facts.quantities, model, &taker, memory.begin, error);
   };
   try {
-    report = mortier::march(solvedModel, state, memory, scene.time, scene.solver, observe, atEnd);
+    report = mortier::march(model, state, memory, scene.time, scene.solver, observe, atEnd);
   } catch (const OutputError& fault) {
     rows_.finish();
     if (temporary_.empty() || !hasCheckpoint(temporary_)) throw;
@@ -164,14 +121,8 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     report.status = Status::failed;
     report.reason = timeIsUp;
     state = keptState;
-  } catch (const PeerEnded&) {
-    if (!inParts) saveLast();
-    throw;
   } catch (const Interrupted&) {
-    try {
-      saveLast();
-    } catch (const Interrupted&) {  // some no longer answer: the checkpoint before holds
-    }
+    saveLast();
     const std::string resume = temporary_.empty()          ? ""
                                : hasCheckpoint(temporary_) ? resumeHint_
                                                            : "; nothing was written";
@@ -180,15 +131,8 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
   rows_.finish();
   keptState = {};
   keptMemory = {};
-  if (inParts) state = gathered(solvedModel, state);
-  if (!writes) return;
-  if (inParts) error.moveTo(state);  // elsewhere it is at the last step
   if (files) solved.files = files->close(state, last.step);
-  solved.accuracy = accuracies.atEnd(report.peaks, std::move(errors));
-  if (flow) {
-    solved.accuracy.flow = flowBoundOf(*flow, state);
-    solved.accuracy.total = totalBoundOf(*total, state, *solved.accuracy.flow);
-  }
+  solved.accuracy = accuracies.atEnd(report.peaks, std::move(errors), now.facts.quantities, last.quantities);
 }
 
 }  // namespace mortier

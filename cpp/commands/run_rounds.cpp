@@ -126,7 +126,7 @@ void Run::solveRounds() {
     aside = true;
     std::shared_ptr<Attempt> next;
     shortfall_ = failureOf([&] {
-      next = std::make_shared<Attempt>(rounds_->scene(), attemptOptions());
+      next = std::make_shared<Attempt>(rounds_->scene(), options_.threads);
       verdict = solveRound(next, done);
     });
     if (shortfall_.empty()) shortfall_ = next->solved.report.reason;

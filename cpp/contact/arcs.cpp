@@ -7,6 +7,8 @@ namespace mortier {
 namespace {
 
 constexpr double fit = 1e-6;
+/// Of places, over the extent of their line.
+constexpr double roundingOfNodes = 1e-13;
 /// Nodes of the shortest run that shows more than that three points lie on a circle.
 constexpr int fewest = 4;
 
@@ -116,9 +118,24 @@ std::vector<Arc> fittedArcs(const std::vector<Point>& points, bool closed) {
 
 std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed, const std::vector<Point>& middles) {
   std::vector<Arc> arcs = fittedArcs(points, closed);
-  for (size_t e = 0; e < middles.size(); ++e)
-    if (!arcs[e].known && middles[e].allFinite())
-      arcs[e] = {curvatureThrough(points[e], middles[e], points[e + 1]), true};
+  double extent = 0;
+  for (const Point& x : points) extent = std::max(extent, (x - points.front()).norm());
+  const auto ofGeometry = [&](size_t e) { return curvatureThrough(points[e], middles[e], points[e + 1]); };
+  const auto agrees = [&](size_t e) {
+    const double length = (points[e + 1] - points[e]).norm();
+    return arcs[e].known && sagitta(length, ofGeometry(e) - arcs[e].curvature) <= roundingOfNodes * extent;
+  };
+  // A fit through nodes may go on from a straight side into the arc beside it: middles of a geometry decide
+  // about all edges of a fit.
+  for (size_t begin = 0, end = 0; begin < middles.size(); begin = end) {
+    bool all = true;
+    for (; end < middles.size() && middles[end].allFinite() && arcs[end].known == arcs[begin].known &&
+           arcs[end].curvature == arcs[begin].curvature;
+         ++end)
+      all = all && agrees(end);
+    for (size_t e = begin; e < end && !all; ++e) arcs[e] = {ofGeometry(e), true};
+    if (end == begin) ++end;
+  }
   return arcs;
 }
 

@@ -41,8 +41,8 @@ class FreeParts {
 
 /// How far the curve behind an element is from a point x of it, along n: where the part has moved, that of
 /// the drawn one, which turns with the element.
-double bulgeOf(const SmoothPart* drawn, int element, double xi, const Arc& arc,
-               const std::array<Point, 2>& ends, const Point& x, const Point& n) {
+double curvatureCorrection(const SmoothPart* drawn, int element, double xi, const Arc& arc,
+                           const std::array<Point, 2>& ends, const Point& x, const Point& n) {
   if (drawn == nullptr) return distanceTo(arc, ends[0], ends[1], x, n);
   if (drawn->straight) return 0;
   const Point& a = drawn->points[element];
@@ -196,9 +196,10 @@ FacingPair CommonRefinement::pairAt(const Segment& segment, double s) const {
   const Point y = mortar_->at(j, faced);
   facing.distance = (y - x).dot(facing.normal);
   if (part.bent(e)) facing.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
-  facing.bulge += bulgeOf(part.drawn.get(), e, here, part.arcs[e], {part.points[e], part.points[e + 1]}, x,
-                          facing.normal);
-  facing.bulge += bulgeOf(across.drawn.get(), across.inPart, 1 - faced, across.arc,
+  facing.curvatureCorrection += curvatureCorrection(part.drawn.get(), e, here, part.arcs[e],
+                                                    {part.points[e], part.points[e + 1]}, x, facing.normal);
+  facing.curvatureCorrection +=
+      curvatureCorrection(across.drawn.get(), across.inPart, 1 - faced, across.arc,
                           {mortar_->points[j + 1], mortar_->points[j]}, y, -facing.normal);
   return facing;
 }

@@ -26,7 +26,8 @@ struct FacingPair {
   Point normal;         ///< direction n, of length one
   double stretch = 1;   ///< length of the element by its abscissa; not 1 where it is bent
   double distance = 0;  ///< of the two lines along n [m]
-  double bulge = 0;     ///< what the curves that the elements stand for (smooth_part.h) take from it [m]
+  double curvatureCorrection =
+      0;  ///< what the curves that the elements stand for (smooth_part.h) take from it [m]
 };
 
 /// Distance g0 of the bodies at a place of a nonmortar element [m].
@@ -34,7 +35,7 @@ using DistanceAt = std::function<double(int element, double s, const FacingPair&
 
 /// As meshed, of the curves that the lines stand for.
 inline double distanceOfCurves(int /*element*/, double /*s*/, const FacingPair& facing) {
-  return facing.distance - facing.bulge;
+  return facing.distance - facing.curvatureCorrection;
 }
 
 /// A piece of the part.

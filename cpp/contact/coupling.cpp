@@ -2,11 +2,11 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/quadrature_rules.h"
 #include "contact/end_rows.h"
 #include "contact/row_functions.h"
 #include "mesh/triangle_mesh.h"
@@ -34,18 +34,13 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
 /// at(segment, rows, s, values of the row functions, weight).
 template <class At>
 void atLobattoPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
-  constexpr std::array<double, 7> places{
-      -1, -0.830223896278567, -0.468848793470714, 0, 0.468848793470714, 0.830223896278567, 1};
-  constexpr std::array<double, 7> weights{1.0 / 21,    0.276826047361566, 0.431745381209863,
-                                          256.0 / 525, 0.431745381209863, 0.276826047361566,
-                                          1.0 / 21};
   for (const Segment& segment : refinement.segments()) {
     const EdgeNodes row = rows.at(segment.nonmortar);
     if (row.maxCoeff() < 0) continue;
-    const double half = (segment.end - segment.begin) / 2;
-    for (size_t k = 0; k < places.size(); ++k) {
-      const double s = k + 1 < places.size() ? segment.begin + (1 + places[k]) * half : segment.end;
-      at(segment, row, s, rows.functions(segment.nonmortar, row, s), weights[k] * half);
+    const double length = segment.end - segment.begin;
+    for (const auto& [place, weight] : lobattoSeven) {
+      const double s = place < 1 ? segment.begin + place * length : segment.end;
+      at(segment, row, s, rows.functions(segment.nonmortar, row, s), weight * length);
     }
   }
 }

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "contact/smooth_part.h"
@@ -95,7 +96,7 @@ void shareNormals(ContactSurface& one, ContactSurface& other) {
   const double opposite = -std::cos(sharpTurn);
   if (one.planar && other.planar) return;
   // Sorted along a direction that no mesh is likely to have.
-  const SpacePoint direction = SpacePoint(1, 0.6180339887, 0.3819660113).normalized();
+  const SpacePoint direction = SpacePoint(1, 1 / std::numbers::phi, 2 - std::numbers::phi).normalized();
   struct Corner {
     double x;
     size_t triangle;

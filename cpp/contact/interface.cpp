@@ -248,32 +248,6 @@ void ContactInterface::setRows(const Entries& entries) {
   T2_ = turned(C2_);
 }
 
-ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>, 2>& numbers,
-                                              const std::array<int, 2>& count) const {
-  const auto columns = [](auto& rows, int perNode, const std::vector<int>& number, int nodes) {
-    using Rows = std::remove_reference_t<decltype(rows)>;
-    Triplets entries;
-    forEachEntry(rows, [&](int row, int column, double value) {
-      entries.emplace_back(row, perNode * number[column / perNode] + column % perNode, value);
-    });
-    rows = assembled<Rows>(rows.rows(), static_cast<Eigen::Index>(perNode) * nodes, entries);
-  };
-  ContactInterface result = *this;
-  const auto& [nonmortar, mortar] = numbers;
-  for (int& node : result.nonmortarNodes_) node = nonmortar[node];
-  for (int& node : result.mortarNodes_) node = mortar[node];
-  for (auto& [node, place] : result.gapNodes_) node = nonmortar[node];
-  columns(result.C1_, 2, nonmortar, count[0]);
-  columns(result.C2_, 2, mortar, count[1]);
-  if (hasFriction()) {
-    columns(result.T1_, 2, nonmortar, count[0]);
-    columns(result.T2_, 2, mortar, count[1]);
-  }
-  if (distanceMoves()) columns(result.N_, 1, nonmortar, count[0]);
-  result.penetration_.renumber(nonmortar, mortar);
-  return result;
-}
-
 Vector ContactInterface::nodalGap(double t) const {
   if (!distanceMoves()) return {};
   Vector gap = Vector::Zero(N_.cols());

@@ -5,7 +5,7 @@
 //
 // One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent
 // part at a corner), along the direction of contact there: coupling.h, common_refinement.h. g0 is the
-// distance along it of the curves that the two lines stand for (arcs.h), of the lines as meshed where these
+// distance along it of the curves that the two lines stand for (arcs.cpp), of the lines as meshed where these
 // are not known. The solver has the two sparse matrices and g0, nothing of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
@@ -123,11 +123,6 @@ class ContactInterface {
   /// The same for linear displacements.
   ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
                    const InterfaceOptions& options = {});
-
-  /// The same with other numbers of the nodes of both meshes, in the same order; -1 for those that are not
-  /// on the lines. \param count  of the nodes of each mesh
-  [[nodiscard]] ContactInterface renumbered(const std::array<std::vector<int>, 2>& numbers,
-                                            const std::array<int, 2>& count) const;
 
   /// Whether rows are those of bodies that displacements have moved, instead of the bodies as meshed. Then
   /// every nonmortar node that may ever face the mortar side has its row, which is empty where it does not.

@@ -118,13 +118,6 @@ double PenetrationIntegral::Place::jump(const Vector& uNonmortar, const Vector& 
   return u.dot(normal) - given;
 }
 
-void PenetrationIntegral::renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar) {
-  for (Place& place : places_) {
-    for (int& node : place.nonmortar) node = nonmortar[node];
-    for (int& node : place.mortar) node = mortar[node];
-  }
-}
-
 void PenetrationIntegral::setMoved(const Vector& uNonmortar, const Vector& uMortar) {
   // jump() is less the distance.
   for (Place& place : places_) place.distance += place.jump(uNonmortar, uMortar) + place.distance;

@@ -33,8 +33,6 @@ class PenetrationIntegral {
  public:
   /// Adds a part of the nonmortar line with what it faces, which may turn about the axis x = 0.
   void add(const CommonRefinement& refinement, const DistanceAt& distance, bool axisymmetric = false);
-  /// Gives the nodes of both meshes other numbers.
-  void renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar);
   /// Takes the distances that were added for those between bodies that these displacements have moved.
   void setMoved(const Vector& uNonmortar, const Vector& uMortar);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2], in the plane of the mesh whatever turns

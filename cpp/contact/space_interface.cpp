@@ -19,27 +19,13 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/quadrature_rules.h"
 #include "contact/interface_entries.h"
 #include "contact/point_entries.h"
 #include "contact/surface.h"
 
 namespace mortier {
 namespace {
-
-/// Radon's rule of seven points on the triangle, exact for polynomials of degree 5.
-struct RadonPoint {
-  double a, b, weight;  ///< barycentric coordinates of two corners, part of the area
-};
-constexpr double near1 = 0.470142064105115, near2 = 0.059715871789770;
-constexpr double far1 = 0.101286507323456, far2 = 0.797426985353087;
-constexpr double nearWeight = 0.132394152788506, farWeight = 0.125939180544827;
-constexpr std::array<RadonPoint, 7> radonRule{{{1.0 / 3, 1.0 / 3, 0.225},
-                                               {near1, near1, nearWeight},
-                                               {near1, near2, nearWeight},
-                                               {near2, near1, nearWeight},
-                                               {far1, far1, farWeight},
-                                               {far1, far2, farWeight},
-                                               {far2, far1, farWeight}}};
 
 std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
   if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
@@ -197,10 +183,10 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     const auto& nodes1 = nonmortar.triangles[each.nonmortar];
     const auto& nodes2 = mortar.triangles[each.mortar];
     const auto distanceAt = [&](const Point& l) {
-      const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
       const Eigen::Vector3d mu = each.at(l);
-      return mortar.distanceAlong(n, mu.dot(each.delta) * n - nonmortar.offset(each.nonmortar, b),
-                                  each.mortar, mu);
+      const SpacePoint apart =
+          mu.dot(each.delta) * n - nonmortar.offset(each.nonmortar, {1 - l.sum(), l.x(), l.y()});
+      return squareOfCosine(nonmortar, mortar, each, n, l) * mortar.distanceAlong(n, apart, each.mortar, mu);
     };
     // Calls at(values of the traces, barycentric coordinates, distance) at a point of the refinement.
     const auto atPoint = [&](const Point& l, auto&& at) {
@@ -231,8 +217,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       const Point e2 = each.polygon[last] - p0;
       const double area = cross(e1, e2) / 2 * twiceArea;
       if (!(area > 0)) continue;
-      for (const auto& [a, b, weight] : radonRule)
-        atPoint(p0 + a * e1 + b * e2,
+      for (const auto& [at, weight] : radonSeven)
+        atPoint(p0 + at[1] * e1 + at[2] * e2,
                 [&, weight = weight](const auto& phi, const auto& psi, const auto& chi, double delta) {
                   const Eigen::Vector3d w = weight * area * chi;
                   hats += w * chi.transpose();

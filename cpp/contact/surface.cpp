@@ -170,6 +170,17 @@ RayHit TriangleTree::along(const SpacePoint& from, const SpacePoint& direction, 
   return nearest;
 }
 
+namespace {
+
+/// Between the normals of both sides, nearer to that of the flatter one.
+SpacePoint directionBetween(const SpacePoint& n1, double curvature1, const SpacePoint& n2,
+                            double curvature2) {
+  const double part = curvature1 / (curvature1 + curvature2);
+  return ((1 - part) * n1 - part * n2).normalized();
+}
+
+}  // namespace
+
 SpacePoint TriangleTree::contactDirection(const SpacePoint& place, const SpacePoint& n1, double curvature1,
                                           double reach, bool curved) const {
   constexpr int repetitions =
@@ -180,10 +191,22 @@ SpacePoint TriangleTree::contactDirection(const SpacePoint& place, const SpacePo
     if (hit.triangle < 0) break;
     const SpacePoint n2 = curved ? surface_.normalAt(hit.triangle, hit.mu) : surface_.normals[hit.triangle];
     if (!(n1.dot(n2) < 0)) return n1;
-    const double part = curvature1 / (curvature1 + surface_.curvatureAt(hit.triangle, hit.mu));
-    n = ((1 - part) * n1 - part * n2).normalized();
+    n = directionBetween(n1, curvature1, n2, surface_.curvatureAt(hit.triangle, hit.mu));
   }
   return n;
+}
+
+double squareOfCosine(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                      const FacingTriangles& facing, const SpacePoint& d, const Point& l) {
+  if (mortar.planar) return 1;  // d is its normal
+  const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
+  const Eigen::Vector3d mu = facing.at(l);
+  const double curvature = nonmortar.curvatureAt(facing.nonmortar, b);
+  const SpacePoint n1 = nonmortar.normalAt(facing.nonmortar, b);
+  const SpacePoint n2 = mortar.normalAt(facing.mortar, mu);
+  if (!(curvature > 0) || !(n1.dot(n2) < 0)) return 1;
+  const double cosine = directionBetween(n1, curvature, n2, mortar.curvatureAt(facing.mortar, mu)).dot(d);
+  return cosine * cosine;
 }
 
 void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar,

@@ -88,6 +88,12 @@ struct DistanceError {
   double error = 0;    ///< expected; 0 where both triangles are one
 };
 
+/// Between d, along which triangles face each other, and the normal n ~ R1 n1 - R2 n2 of contact of the
+/// curved surfaces at a point l of the nonmortar one: the square of the cosine. Surfaces that are g apart
+/// along n, and g/cos along d, meet by a motion g n, whose part along d is g cos.
+double squareOfCosine(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                      const FacingTriangles& facing, const SpacePoint& d, const Point& l);
+
 double errorBetween(const ContactSurface& nonmortar, const ContactSurface& mortar,
                     const FacingTriangles& facing);
 

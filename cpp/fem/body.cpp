@@ -86,16 +86,16 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
 }
 
 Body::Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
-           SpaceConditions conditions, int degree)
+           SpaceConditions conditions, int degree, bool averaged)
     : name_(std::move(name)),
-      space_(std::make_shared<SpaceElements>(name_, std::move(mesh), std::move(conditions), degree)),
+      space_(
+          std::make_shared<SpaceElements>(name_, std::move(mesh), std::move(conditions), degree, averaged)),
       material_(std::move(material)),
       equations_(space_->equations()),
       weights_(space_->weights()),
       largestGradient_(space_->largestGradient()),
       extent_(mortier::extent(space_->mesh())),
-      freeDofs_(space_->freeDofs()),
-      tangentSize_(freeDofs_) {}
+      freeDofs_(space_->freeDofs()) {}
 
 double Body::largestCoordinate() const {
   double largest = 0;
@@ -146,7 +146,7 @@ SpacePoint Body::placeOfPoint(int point) const {
 }
 
 const TangentAssembly& Body::assembly() const {
-  if (!assembly_) assembly_.emplace(triangleData(), frameOf_, tangentSize_, material_->symmetricTangent());
+  if (!assembly_) assembly_.emplace(triangleData(), frameOf_, freeDofs_, material_->symmetricTangent());
   return *assembly_;
 }
 
@@ -167,7 +167,7 @@ std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& 
   return places;
 }
 
-void Body::numberEquations(const std::vector<char>& own) {
+void Body::numberEquations() {
   equations_.assign(dofs(), 0);
   for (const NodeSupport& support : supports_.nodes()) {
     const Point& d = support.directions[0];
@@ -179,13 +179,8 @@ void Body::numberEquations(const std::vector<char>& own) {
     frameOf_[support.node] = static_cast<int>(frames_.size());
     frames_.push_back(Eigen::Matrix2d{{d.x(), d.y()}, {-d.y(), d.x()}});
   }
-  const auto number = [&](char which) {
-    for (int dof = 0; dof < dofs(); ++dof)
-      if (equations_[dof] >= 0 && (own.empty() ? 1 : own[dof / 2]) == which) equations_[dof] = freeDofs_++;
-  };
-  number(1);
-  tangentSize_ = freeDofs_;
-  number(0);
+  for (int& equation : equations_)
+    if (equation >= 0) equation = freeDofs_++;
 }
 
 std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {

@@ -61,31 +61,20 @@ struct Conditions {
 /// Places of the quadrature points of all triangles, one triangle after the other [m].
 std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes);
 
-/// A part of a body. Numbers in the whole one, ascending.
-struct BodyCut {
-  std::vector<int> triangles;
-  std::vector<int> nodes;  ///< of these triangles, of the labelled boundary and of all supports
-};
-
 class Body {
  public:
   /// \param degree  of the displacements, 1 or 2
   /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/triangle_mesh.h): the material has four
   /// components then, integrals are of the whole ring, and forces are in [N]
-  /// \param averaged  whether its material gets an averaged volumetric strain (fem/tangent_assembly.h)
+  /// \param averaged  whether its material gets an averaged volumetric strain (fem/volume_patches.h)
   /// \throws InputError when a condition names a label or a point that the mesh does not have, where a
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
        int degree = 1, bool axisymmetric = false, bool averaged = false);
-  /// A body in space. Of what follows below, what refers to triangles, axes of revolution, rigid motions and
-  /// parts is of the plane, and empty. \throws InputError
+  /// A body in space. Of what follows below, what refers to triangles, axes of revolution and rigid motions
+  /// is of the plane, and empty. \throws InputError
   Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
-       SpaceConditions conditions, int degree);
-  /// A part with numbers of its own, in the order of those of the whole body; it has the whole labelled
-  /// boundary and all supports. What it sums are the sums over its triangles and the sides that are theirs,
-  /// so those of all parts are that of the whole body. The equations of nodes without triangles of the part
-  /// come after all others, and are none of its tangent.
-  Body(const Body& whole, const BodyCut& cut);
+       SpaceConditions conditions, int degree, bool averaged = false);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   /// 2 or 3: components of a displacement. A dof is dimension() node + component.
@@ -99,7 +88,9 @@ class Body {
   [[nodiscard]] int degree() const { return space_ ? space_->nodes().degree : nodes_.degree; }
   [[nodiscard]] bool axisymmetric() const { return axisymmetric_; }
   /// Where the volumetric strain is averaged; null elsewhere.
-  [[nodiscard]] const VolumePatches* patches() const { return patches_ ? &*patches_ : nullptr; }
+  [[nodiscard]] const VolumePatches* patches() const {
+    return space_ ? space_->patches() : patches_ ? &*patches_ : nullptr;
+  }
   [[nodiscard]] int nodes() const { return space_ ? space_->nodes().count() : nodes_.count(); }
   [[nodiscard]] int dofs() const { return dimension() * nodes(); }
   /// Triangles or tetrahedra.
@@ -229,8 +220,7 @@ class Body {
   [[nodiscard]] Vector withHeld(const Eigen::Vector3d& held, const Vector& displacement) const;
   [[nodiscard]] Eigen::Vector3d heldAt(double t) const;
   [[nodiscard]] Vector rigidLoad(double t) const;
-  /// \param own  by nodes, whether they have triangles; all where empty
-  void numberEquations(const std::vector<char>& own = {});
+  void numberEquations();
   [[nodiscard]] const TangentAssembly& assembly() const;
   /// By the directions of a support [m].
   [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
@@ -286,8 +276,6 @@ class Body {
   double extent_ = 0;
   Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none
   int freeDofs_ = 0;
-  int tangentSize_ = 0;         ///< equations of nodes that have triangles
-  std::vector<char> ownEdges_;  ///< by labelled edges, whether they are sides of triangles; all where empty
   mutable std::optional<TangentAssembly> assembly_;
 };
 

@@ -6,38 +6,13 @@
 #include "fem/element.h"
 
 namespace mortier {
-namespace {
-
-/// What a displacement makes of the polynomials of patches, found once for points that lie near each other.
-template <class Value, class Find>
-class OfPatches {
- public:
-  explicit OfPatches(const Find& find) : find_(find) { patches_.fill(-1); }
-  const std::array<Value, 3>& operator()(int patch) {
-    const int at = patch % kept;
-    if (patches_[at] != patch) {
-      patches_[at] = patch;
-      find_(patch, values_[at]);
-    }
-    return values_[at];
-  }
-
- private:
-  static constexpr int kept = 128;
-  const Find& find_;
-  std::array<int, kept> patches_;
-  std::array<std::array<Value, 3>, kept> values_;
-};
-
-}  // namespace
-
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
 //   B = [Gx Gy; Gx -Gy; Gy Gx],
 // and, where the body turns about the axis, the circumference by [N/r 0], N the shape function at the point.
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
 //
 // Where the volumetric strain is averaged, p is the sum of the polynomials of the patch less the
-// circumference over sqrt2 (fem/tangent_assembly.h).
+// circumference over sqrt2 (fem/volume_patches.h).
 
 Vector Body::internalForce(const Matrix& stress) const {
   if (space_) return space_->internalForce(stress);
@@ -70,13 +45,7 @@ Vector Body::internalForce(const Matrix& stress) const {
       for (int a = 0; a < Element::nodes; ++a) f[2 * triangle[a]] += hoop * hoops_[Element::nodes * i + a];
     }
   });
-  for (int patch = 0; patches_ && patch < patches_->count(); ++patch)
-    for (int k = 0; k < terms; ++k) {
-      const double* row = patches_->row(patch, k);
-      for (const int node : patches_->nodes(patch))
-        for (const int c : {0, 1})
-          f[2 * node + c] += ofPatches[static_cast<size_t>(terms) * patch + k] * *row++;
-    }
+  if (patches_) patches_->addForces(ofPatches, f);
   return f;
 }
 
@@ -117,23 +86,9 @@ void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& st
   const int n = nodes_.perTriangle();
   const int ofTriangle = pointsOfTriangle();
   const int terms = patches_->terms();
-  const auto find = [&](int patch, std::array<DoubleDouble, 3>& sums) {
-    const auto nodes = patches_->nodes(patch);
-    const int first = 2 * *nodes.begin();
-    for (int k = 0; k < terms; ++k)
-      sums[k] = DoubleDouble::product(patches_->uniform(patch, k), {u.high[first], u.low[first]});
-    for (size_t a = 1; a < nodes.size(); ++a)
-      for (const int c : {0, 1}) {
-        const int dof = 2 * nodes[a] + c;
-        DoubleDouble change = DoubleDouble::sum(u.high[dof], -u.high[first + c]);
-        change.low += u.low[dof] - u.low[first + c];
-        for (int k = 0; k < terms; ++k)
-          sums[k] += DoubleDouble::product(patches_->row(patch, k)[2 * a + c], change);
-      }
-  };
-  OfPatches<DoubleDouble, decltype(find)> ofPatches(find);
+  PatchProducts products(patches(), u);
   for (int i = begin; i < end; ++i) {
-    const std::array<DoubleDouble, 3>& sums = ofPatches(patches_->patchOf()[i / ofTriangle]);
+    const std::array<DoubleDouble, 3>& sums = products(patches_->patchOf()[i / ofTriangle]);
     const double* basis = patches_->basis(i);
     DoubleDouble p = DoubleDouble::product(basis[0], sums[0]);
     for (int k = 1; k < terms; ++k) p += DoubleDouble::product(basis[k], sums[k]);
@@ -226,17 +181,7 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
 
 void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
   if (space_) return space_->addStressOf(d, law, stress, begin, end);
-  const auto find = [&](int patch, std::array<double, 3>& sums) {
-    const auto nodes = patches_->nodes(patch);
-    const int first = 2 * *nodes.begin();
-    for (int k = 0; k < patches_->terms(); ++k) {
-      const double* row = patches_->row(patch, k);
-      sums[k] = patches_->uniform(patch, k) * d[first];
-      for (size_t a = 1; a < nodes.size(); ++a)
-        for (const int c : {0, 1}) sums[k] += row[2 * a + c] * (d[2 * nodes[a] + c] - d[first + c]);
-    }
-  };
-  OfPatches<double, decltype(find)> ofPatches(find);
+  PatchProducts products(patches(), d);
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     constexpr int others = 2 * (Element::nodes - 1);
@@ -259,7 +204,7 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       }
       double p = xx + yy;
       if (patches_) {
-        const std::array<double, 3>& sums = ofPatches(patches_->patchOf()[i / Element::points]);
+        const std::array<double, 3>& sums = products(patches_->patchOf()[i / Element::points]);
         p = 0;
         for (int k = 0; k < patches_->terms(); ++k) p += patches_->basis(i)[k] * sums[k];
         for (int a = 0; a < Element::nodes && axisymmetric_; ++a)

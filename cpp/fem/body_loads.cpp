@@ -71,7 +71,7 @@ void Body::addTractions(double t, Vector& f, bool steady) const {
       if (isSteady != steady) continue;
       const int exact = Element::edgeExact - (axisymmetric_ ? 1 : 0);
       for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
-        if (mesh_.boundaryLabels[e] != traction.label || (!ownEdges_.empty() && ownEdges_[e] == 0)) continue;
+        if (mesh_.boundaryLabels[e] != traction.label) continue;
         std::array<int, Element::edgeNodes> nodes;
         std::array<Point, Element::edgeNodes> x;
         for (int a = 0; a < Element::edgeNodes; ++a) {
@@ -172,11 +172,13 @@ Matrix Body::thermalStrain(double t) const {
     for (int i = 0; i < points(); ++i) kelvin[i] = conditions_.temperature(places[i].x(), places[i].y(), t);
   }
   strain.topRows(expansion().rows()) = expansion() * kelvin.asDiagonal();
+  // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
   if (patches_) {
-    // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
     Vector theta = std::numbers::sqrt2 * strain.row(0);
     if (conditions_.expansion.rows() > 3) theta += strain.row(3).transpose();
     strain.row(0) += (patches_->averaged(theta, weights_) - theta).transpose() / std::numbers::sqrt2;
+  } else if (patches() != nullptr) {
+    strain.row(5) = patches()->averaged(strain.row(5), weights_);
   }
   return strain;
 }

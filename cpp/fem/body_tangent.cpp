@@ -70,25 +70,19 @@ void Body::addOthers(const TangentModuli& moduli, std::vector<double>& values, T
   }
 }
 
-// With the strains B of triangleTangent(), the rows m of the patch and its polynomials f at the points,
-// averaging adds sum w (B' D e m' f + m f e' D B + m f e' D e f m'), e the unit of p. With R of the first and
-// the last term and C of the second this is R m' + m C', polynomial by polynomial.
 template <class Element>
 void Body::addPatches(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
   constexpr int terms = Element::points == 1 ? 1 : 3;
   const bool symmetric = pattern().symmetric;
   constexpr int ofABlock = 256;
-  std::vector<double> work;  // m, R, C of the patches
+  std::vector<double> work;
   const int* entry = assembly().entriesOfPatches().data();
-  const auto setPatch = [&](int patch, double* m) {
+  const auto setPatch = [&](int patch, double* memory) {
     const auto nodes = patches_->nodes(patch);
-    const size_t size = 2 * nodes.size();
-    double* R = m + terms * size;
-    double* C = R + terms * size;
-    std::copy_n(patches_->row(patch, 0), terms * size, m);
-    std::fill_n(R, 2 * terms * size, 0.0);
+    PatchTangent tangent(*patches_, patch, 2, memory);
+    tangent.start(*patches_, patch);
     Eigen::Matrix3d inner = Eigen::Matrix3d::Zero();
-    for (const int t : patches_->triangles(patch)) {
+    for (const int t : patches_->elements(patch)) {
       const int* local = patches_->local(t);
       for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
         const auto G = triangleData().template gradientsOf<Element>(i);
@@ -103,9 +97,11 @@ void Body::addPatches(const TangentModuli& moduli, std::vector<double>& values, 
         }
         for (int k = 0; k < terms; ++k) {
           const double w = weights_[i] * basis[k];
+          double* R = tangent.first(k);
+          double* C = tangent.second(k);
           for (int l = 0; l <= k; ++l) inner(k, l) += w * basis[l] * D[0];
           for (int a = 0; a < Element::nodes; ++a) {
-            const size_t at = k * size + 2 * local[a];
+            const int at = 2 * local[a];
             const double gx = w * G[2 * a];
             const double gy = w * G[2 * a + 1];
             R[at] += D[1] * gx + D[2] * gy;
@@ -120,36 +116,26 @@ void Body::addPatches(const TangentModuli& moduli, std::vector<double>& values, 
         }
       }
     }
-    for (int k = 0; k < terms; ++k)
-      for (int l = 0; l < terms; ++l)
-        for (size_t i = 0; i < size; ++i)
-          R[k * size + i] += inner(std::max(k, l), std::min(k, l)) * m[l * size + i];
+    tangent.addInner(inner);
     for (size_t a = 0; a < nodes.size() && !frameOf_.empty(); ++a)
       if (const int frame = frameOf_[nodes[a]]; frame >= 0)
-        for (int k = 0; k < 3 * terms; ++k) {
-          Eigen::Map<Point> vector(m + k * size + 2 * a);
+        tangent.turnNode(2 * a, [&](double* at) {
+          Eigen::Map<Point> vector(at);
           vector = (frames_[frame] * vector).eval();
-        }
+        });
   };
-  const auto addPatch = [&](int patch, const double* m) {
-    const size_t size = 2 * patches_->nodes(patch).size();
-    const double* R = m + terms * size;
-    const double* C = R + terms * size;
-    for (size_t j = 0; j < size; ++j)
-      for (size_t i = symmetric ? j : 0; i < size; ++i, ++entry) {
-        if (*entry < 0) continue;
-        double sum = 0;
-        for (int k = 0; k < terms; ++k)
-          sum += R[k * size + i] * m[k * size + j] + m[k * size + i] * C[k * size + j];
-        values[*entry] += sum;
-      }
+  const auto addPatch = [&](int patch, double* memory) {
+    const PatchTangent tangent(*patches_, patch, 2, memory);
+    for (size_t j = 0; j < tangent.size(); ++j)
+      for (size_t i = symmetric ? j : 0; i < tangent.size(); ++i, ++entry)
+        if (*entry >= 0) values[*entry] += tangent(i, j);
   };
   constexpr int atOnce = 64 * ofABlock;
   for (int first = 0; first < patches_->count(); first += atOnce) {
     const int end = std::min(first + atOnce, patches_->count());
     std::vector<size_t> from(1, 0);
     for (int patch = first; patch < end; ++patch)
-      from.push_back(from.back() + 6 * terms * patches_->nodes(patch).size());
+      from.push_back(from.back() + PatchTangent::need(*patches_, patch, 2));
     work.resize(from.back());
     threads.forEach((end - first + ofABlock - 1) / ofABlock, [&](int block) {
       for (int patch = first + ofABlock * block; patch < std::min(end, first + ofABlock * (block + 1));

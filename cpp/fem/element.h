@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include "base/quadrature_rules.h"
 #include "base/types.h"
 #include "mesh/element_nodes.h"
 
@@ -147,25 +148,23 @@ struct QuadraticTriangle {
   static constexpr int edgeExact = 3;
   static constexpr int loadExact = 2;
   static constexpr double edgeDivisor = 1;
-  static constexpr EdgePoint<3> gauss(double s, double w) {
+  static constexpr EdgePoint<3> gauss(const EdgePlace& place) {
+    const auto [s, w] = place;
     const auto [a, b, m] = edgeShapes(s);
     return {s, {w * a, w * b, w * m}};
   }
   static constexpr std::array<EdgePoint<3>, 3> edgeRule() {
-    return {{gauss(0.1127016653792583, 5.0 / 18), gauss(0.5, 8.0 / 18), gauss(0.8872983346207417, 5.0 / 18)}};
+    return {{gauss(gaussThree[0]), gauss(gaussThree[1]), gauss(gaussThree[2])}};
   }
   static constexpr double loadDivisor = 1;
-  static constexpr LoadPoint<6> dunavant(const Barycentric& b, double w) {
-    const std::array<double, nodes> N = shapes(b);
-    return {b, {w * N[0], w * N[1], w * N[2], w * N[3], w * N[4], w * N[5]}};
-  }
-  static constexpr double near = 0.445948490915965, nearWeight = 0.223381589678011;
-  static constexpr double far = 0.091576213509771, farWeight = 0.109951743655322;
   static constexpr std::array<LoadPoint<6>, 6> loadRule() {
-    return {{dunavant({1 - 2 * near, near, near}, nearWeight),
-             dunavant({near, 1 - 2 * near, near}, nearWeight),
-             dunavant({near, near, 1 - 2 * near}, nearWeight), dunavant({1 - 2 * far, far, far}, farWeight),
-             dunavant({far, 1 - 2 * far, far}, farWeight), dunavant({far, far, 1 - 2 * far}, farWeight)}};
+    std::array<LoadPoint<6>, 6> rule{};
+    for (int i = 0; i < 6; ++i) {
+      const auto& [b, w] = dunavantSix[i];
+      const std::array<double, nodes> N = shapes(b);
+      rule[i] = {b, {w * N[0], w * N[1], w * N[2], w * N[3], w * N[4], w * N[5]}};
+    }
+    return rule;
   }
 };
 

@@ -283,12 +283,10 @@ Matrix ErrorEstimator::recoveredStress(const Matrix& stress, Threads& threads) c
   }
 }
 
-Matrix ErrorEstimator::recoveredIn(size_t triangle, const Matrix& stress, Threads& threads) const {
+Matrix ErrorEstimator::recovered(const Matrix& stress, Threads& threads) const {
+  if (body_.space() != nullptr) return recoveredInSpace(body_, stress, threads);
   return withElement(body_.degree(), [&](auto element) {
-    using Element = decltype(element);
-    const int* known = &recoveredAt_[Element::nodes * triangle];
-    return Matrix(recoveredStress<Element>(stress, threads)(Eigen::all,
-                                                            std::vector<int>(known, known + Element::nodes)));
+    return Matrix(recoveredStress<decltype(element)>(stress, threads)(Eigen::all, recoveredAt_));
   });
 }
 

@@ -23,6 +23,9 @@ struct ErrorEstimate {
 /// Of a body in space (space_estimate.cpp). \param stress  components x points [Pa]
 ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress, Threads& threads);
 
+/// ErrorEstimator::recovered of a body in space.
+Matrix recoveredInSpace(const Body& body, const Matrix& stress, Threads& threads);
+
 /// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump
 /// between materials.
 class ErrorEstimator {
@@ -30,9 +33,9 @@ class ErrorEstimator {
   explicit ErrorEstimator(const Body& body, Threads& threads = Threads::none());
   /// \param stress  components x points [Pa].
   [[nodiscard]] ErrorEstimate operator()(const Matrix& stress, Threads& threads = Threads::none()) const;
-  /// The recovered stress at the nodes of a triangle: components x nodes [Pa]. In the plane.
-  [[nodiscard]] Matrix recoveredIn(size_t triangle, const Matrix& stress,
-                                   Threads& threads = Threads::none()) const;
+  /// The recovered stress at the nodes of all elements, one after the other: components x (elements times
+  /// nodes of each) [Pa].
+  [[nodiscard]] Matrix recovered(const Matrix& stress, Threads& threads = Threads::none()) const;
 
  private:
   template <class Element>

@@ -17,7 +17,7 @@ Matrix rigidModes(const Body& body);
 /// the mesh ", of its part around (3, 1)".
 std::string describeRigidMotion(const Body& body, const Vector& motion);
 
-// The same of bodies in space (space_rigid_modes.cpp), whose parts share no vertex.
+// The same of bodies in space, whose parts share no vertex.
 Matrix spaceRigidModes(const Body& body);
 std::string describeSpaceMotion(const Body& body, const Vector& motion);
 

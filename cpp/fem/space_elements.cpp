@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/quadrature_rules.h"
 #include "base/two_part_vector.h"
 #include "fem/tetrahedron.h"
 
@@ -11,12 +12,6 @@ namespace mortier {
 namespace {
 
 constexpr double root2 = std::numbers::sqrt2;
-
-/// Gauss's four points on [0, 1].
-constexpr std::array<double, 4> gaussPlaces{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
-                                            0.9305681557970262};
-constexpr std::array<double, 4> gaussWeights{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                             0.1739274225687269};
 
 SpacePoint placeOfPoint(const TetrahedronMesh& mesh, int degree, int point) {
   SpacePoint place = SpacePoint::Zero();
@@ -30,28 +25,22 @@ SpacePoint placeOfPoint(const TetrahedronMesh& mesh, int degree, int point) {
 
 std::vector<SpaceRulePoint> triangleRule() {
   std::vector<SpaceRulePoint> rule;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const double x = gaussPlaces[i];
-      const double y = gaussPlaces[j] * (1 - x);
-      rule.push_back({{x, y, 0}, gaussWeights[i] * gaussWeights[j] * (1 - x)});
-    }
+  for (const auto& [x, ofX] : gaussFour)
+    for (const auto& [y, ofY] : gaussFour) rule.push_back({{x, y * (1 - x), 0}, ofX * ofY * (1 - x)});
   return rule;
 }
 
 std::vector<SpaceRulePoint> tetrahedronRule() {
   std::vector<SpaceRulePoint> rule;
-  for (int k = 0; k < 4; ++k)
-    for (const SpaceRulePoint& each : triangleRule()) {
-      const double z = gaussPlaces[k];
-      rule.push_back({{each.at.x() * (1 - z), each.at.y() * (1 - z), z},
-                      gaussWeights[k] * each.weight * (1 - z) * (1 - z)});
-    }
+  for (const auto& [z, ofZ] : gaussFour)
+    for (const SpaceRulePoint& each : triangleRule())
+      rule.push_back(
+          {{each.at.x() * (1 - z), each.at.y() * (1 - z), z}, ofZ * each.weight * (1 - z) * (1 - z)});
   return rule;
 }
 
 SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, SpaceConditions conditions,
-                             int degree)
+                             int degree, bool averaged)
     : mesh_(std::move(mesh)), nodes_(spaceNodes(mesh_, degree)), conditions_(std::move(conditions)) {
   for (const auto* each : {&conditions_.displacements, &conditions_.tractions})
     for (const SpaceCondition& condition : *each)
@@ -75,6 +64,7 @@ SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, Spac
       }
     }
   });
+  if (averaged) patches_.emplace(volumePatches(mesh_), nodes_, weights_, gradients_);
   findSupports(body);
   numberEquations();
 }
@@ -134,13 +124,18 @@ Vector SpaceElements::load(double t) const {
 
 Vector SpaceElements::internalForce(const Matrix& stress) const {
   Vector f = Vector::Zero(3 * static_cast<Eigen::Index>(nodes_.count()));
+  std::vector<double> ofPatches(patches_ ? patches_->count() : 0, 0.0);
   withSpaceElement(nodes_.degree, [&](auto element) {
     using Element = decltype(element);
     constexpr int others = 3 * (Element::nodes - 1);
     for (size_t i = 0; i < weights_.size(); ++i) {
       const int* nodes = nodes_.of(i / Element::points);
-      const Eigen::Matrix3d T =
-          weights_[i] * tensorOfStress(stress.col(static_cast<Eigen::Index>(i)).template head<6>());
+      Eigen::Vector<double, 6> s = stress.col(static_cast<Eigen::Index>(i)).template head<6>();
+      if (patches_) {
+        ofPatches[patches_->patchOf()[i]] += weights_[i] * s[5] * *patches_->basis(static_cast<int>(i));
+        s[5] = 0;
+      }
+      const Eigen::Matrix3d T = weights_[i] * tensorOfStress(s);
       const double* G = &gradients_[others * i];
       SpacePoint sum = SpacePoint::Zero();
       for (int a = 1; a < Element::nodes; ++a, G += 3) {
@@ -151,6 +146,7 @@ Vector SpaceElements::internalForce(const Matrix& stress) const {
       f.segment<3>(3 * static_cast<Eigen::Index>(nodes[0])) -= sum;
     }
   });
+  if (patches_) patches_->addForces(ofPatches, f);
   return f;
 }
 
@@ -204,10 +200,22 @@ void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& 
       if (strain.rows() > 6) strain(6, i) = shift != nullptr ? -(*shift)(6, i) : 0;
     }
   });
+  if (patches_) averageStrain(u, shift, strain, begin, end);
+}
+
+void SpaceElements::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
+                                  int end) const {
+  PatchProducts products(patches(), u);
+  for (int i = begin; i < end; ++i) {
+    DoubleDouble p = DoubleDouble::product(*patches_->basis(i), products(patches_->patchOf()[i])[0]);
+    if (shift != nullptr) p += DoubleDouble{-(*shift)(5, i), 0};
+    strain(5, i) = p.value();
+  }
 }
 
 void SpaceElements::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin,
                                 int end) const {
+  PatchProducts products(patches(), d);
   withSpaceElement(nodes_.degree, [&](auto element) {
     using Element = decltype(element);
     constexpr int others = 3 * (Element::nodes - 1);
@@ -219,7 +227,8 @@ void SpaceElements::addStressOf(const Vector& d, const Linearisation& law, Matri
       for (int a = 1; a < Element::nodes; ++a, G += 3)
         H += (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0) *
              Eigen::RowVector3d(G[0], G[1], G[2]);
-      const Eigen::Vector<double, 6> strain = strainOfGradient(H);
+      Eigen::Vector<double, 6> strain = strainOfGradient(H);
+      if (patches_) strain[5] = *patches_->basis(i) * products(patches_->patchOf()[i])[0];
       stress.col(i).head<6>() += spaceModuliAt(law.moduli, i) * strain;
       if (stress.rows() > 6) stress(6, i) += law.beyond.col(i).head<6>().dot(strain);
     }

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/two_part_vector.h"
 #include "base/types.h"
+#include "fem/volume_patches.h"
 #include "linear/condensing_solver.h"
 #include "material/material.h"
 #include "mesh/tetrahedron_mesh.h"
@@ -64,8 +65,10 @@ std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree);
 
 class SpaceElements {
  public:
+  /// \param averaged  whether the material gets an averaged volumetric strain; with degree 1 alone
   /// \throws InputError when a condition names a label or a point that the mesh does not have.
-  SpaceElements(const std::string& body, TetrahedronMesh mesh, SpaceConditions conditions, int degree);
+  SpaceElements(const std::string& body, TetrahedronMesh mesh, SpaceConditions conditions, int degree,
+                bool averaged);
 
   [[nodiscard]] const TetrahedronMesh& mesh() const { return mesh_; }
   [[nodiscard]] const SpaceNodes& nodes() const { return nodes_; }
@@ -76,6 +79,8 @@ class SpaceElements {
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
   [[nodiscard]] SpacePoint placeOf(int point) const;  ///< [m]
   [[nodiscard]] double largestGradient() const { return largestGradient_; }
+  /// Where the volumetric strain is averaged; null elsewhere.
+  [[nodiscard]] const VolumePatches* patches() const { return patches_ ? &*patches_ : nullptr; }
 
   // As those of Body.
 
@@ -103,8 +108,10 @@ class SpaceElements {
   template <class Element>
   [[nodiscard]] Eigen::Matrix<double, 3 * Element::nodes, 3 * Element::nodes> elementTangent(
       int element, const Matrix& moduli) const;
-  template <class Matrices>
-  void add(const Matrices& matrices, size_t first, size_t count, std::vector<double>& values) const;
+  void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
+  void setPatch(int patch, const Matrix& moduli, PatchTangent& tangent) const;
+  template <class Entry>
+  void add(std::span<const int> nodes, const Entry& entry, std::vector<double>& values) const;
 
   TetrahedronMesh mesh_;
   SpaceNodes nodes_;
@@ -116,6 +123,7 @@ class SpaceElements {
   std::vector<double> weights_;
   std::vector<double> gradients_;  ///< of all shape functions of an element but the first, over sqrt2
   double largestGradient_ = 0;
+  std::optional<VolumePatches> patches_;
   // The pattern by nodes: the neighbours of each, and how many equations those before them have.
   mutable std::optional<SparsePattern> pattern_;
   mutable std::vector<int> neighbourStart_, neighbours_, before_;

@@ -147,17 +147,22 @@ class SpaceRecovery {
     const auto rows = static_cast<Eigen::Index>(offsets.size());
     Matrix design(rows, monomials);
     Matrix values(rows, 6);
+    // Of the difference from a mean: where terms are left out a stress that is the same everywhere stays so.
+    Eigen::Vector<double, 6> mean = Eigen::Vector<double, 6>::Zero();
+    for (const int e : elements)
+      mean += stress_.template block<6, each>(0, each * e).rowwise().sum() / static_cast<double>(rows);
     for (Eigen::Index i = 0; i < rows; ++i) {
       const SpacePoint x = offsets[i] / fit.size;
       const double weight = each == 1 ? 1 : 1 / x.norm();
       design.row(i) = weight * monomialsAt<monomials>(x);
-      values.row(i) = weight * stress_.col(each * elements[i / each] + i % each).template head<6>();
+      values.row(i) = weight * (stress_.col(each * elements[i / each] + i % each).template head<6>() - mean);
     }
     Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
     constexpr double dependent = 1e-2;  // nearly dependent terms are left out, a constant is kept
     solver.setThreshold(dependent);
     solver.compute(design);
     fit.coefficients = solver.solve(values).transpose();
+    fit.coefficients.col(0) += mean;
     return fit;
   }
 
@@ -244,6 +249,17 @@ ErrorEstimate estimateOn(const Body& body, const Matrix& stress, Threads& thread
 ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress, Threads& threads) {
   return withSpaceElement(body.degree(),
                           [&](auto element) { return estimateOn<decltype(element)>(body, stress, threads); });
+}
+
+Matrix recoveredInSpace(const Body& body, const Matrix& stress, Threads& threads) {
+  return withSpaceElement(body.degree(), [&](auto element) {
+    constexpr int nodes = decltype(element)::nodes;
+    const SpaceRecovery<decltype(element)> recovery(body, stress, threads);
+    const auto elements = static_cast<int>(body.elements());
+    Matrix recovered(6, Eigen::Index{nodes} * elements);
+    for (int e = 0; e < elements; ++e) recovered.middleCols<nodes>(Eigen::Index{nodes} * e) = recovery.at(e);
+    return recovered;
+  });
 }
 
 }  // namespace mortier

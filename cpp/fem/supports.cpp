@@ -187,12 +187,6 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
   for (FurtherMotion& motion : further_) motion.support = numbers.at(motion.support);
 }
 
-Supports Supports::renumbered(const std::vector<int>& numbers) const {
-  Supports result = *this;
-  for (NodeSupport& support : result.nodes_) support.node = numbers[support.node];
-  return result;
-}
-
 Point prescribed(const NodeSupport& support, const std::array<double, 2>& values, const Point& u) {
   const Point& d = support.directions[0];
   if (support.count == 1) {

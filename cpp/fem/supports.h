@@ -67,9 +67,6 @@ class Supports {
   Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions)
       : Supports(mesh, elementNodes(mesh, 1), conditions) {}
 
-  /// The same with other numbers of the nodes, in the same order. \pre all supported ones have a number
-  [[nodiscard]] Supports renumbered(const std::vector<int>& numbers) const;
-
   [[nodiscard]] const std::vector<NodeSupport>& nodes() const { return nodes_; }  ///< ascending
   [[nodiscard]] const std::vector<FurtherMotion>& further() const { return further_; }
 

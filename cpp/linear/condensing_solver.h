@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/ranks.h"
 #include "base/types.h"
 
 namespace mortier {
@@ -44,16 +43,6 @@ class CondensingSolver {
   /// f from condense() with the solution x_k in its kept part: becomes the solution x.
   virtual void expand(Vector& f) const = 0;
 
-  // Where ranks share the interior, each function above does the part of its own rank, and the one here that
-  // follows it puts together what all did. Collective.
-
-  /// After factorise(). \returns whether all of it is regular
-  virtual bool join(bool regular) { return regular; }
-  /// After condense().
-  virtual void joinCondensed(Vector& /*f*/) const {}
-  /// Before expand().
-  virtual void expandJoined(Vector& /*f*/) const {}
-
   /// Works on these threads from now on; they must outlive the solver.
   void use(Threads& threads) { threads_ = &threads; }
 
@@ -73,10 +62,6 @@ using CondensingSolverFactory =
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept);
 
-/// As multifrontalSolver(); METIS orders each in a process of its own.
-std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
-                                                              const std::vector<int>& kept);
-
 /// The same by Cholesky in single precision: half of the memory and nearly of the time. What it solves is off
 /// by the rounding of single precision times the condition of K; repeated solves for the residual take that
 /// away.
@@ -85,29 +70,5 @@ std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, con
 /// CHOLMOD (symmetric patterns) or UMFPACK on the interior, one right-hand side per kept equation.
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
-
-/// Below it MUMPS may be slower than a factor on every rank, whose memory does not count (docs/scaling.md).
-constexpr int distributedSkeletonFrom = 4000;
-
-/// Equations of a part that other ranks may have too, each with its number among those of all ranks.
-struct SharedEquations {
-  std::vector<int> equations;
-  std::vector<int> numbers;  ///< ascending
-  int count = 0;             ///< of all ranks
-};
-
-/// The interior shared by ranks: the matrix is the sum of those of all of them, each with a pattern over the
-/// equations of its own part. Equations that several ranks have, the skeleton, are kept in every part and
-/// eliminated from the sum of what the parts leave there. Right-hand sides are the sums of those of all
-/// ranks, solutions known where a rank has the equation, and where it is kept.
-/// \param kept  the same of all ranks in the same order, by the numbers of this one: those that are beyond
-/// its part are none of it
-/// \param engine  of the parts and of the skeleton
-/// \param distributedFrom  equations of the skeleton from which on its factor is shared (linear/skeleton.h).
-/// Collective.
-std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& part, const std::vector<int>& kept,
-                                               const SharedEquations& shared,
-                                               const CondensingSolverFactory& engine, Ranks& ranks,
-                                               int distributedFrom = distributedSkeletonFrom);
 
 }  // namespace mortier

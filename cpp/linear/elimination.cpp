@@ -9,7 +9,7 @@
 
 #include "base/interrupt.h"
 #include "linear/cholmod_common.h"
-#include "linear/run_order.h"
+#include "linear/supervariables.h"
 
 namespace mortier {
 namespace {
@@ -46,7 +46,6 @@ std::optional<Supernodes> supernodesOf(Columns& columns, int equationsOfAColumn)
   common.nrelax[0] = std::max(2 / equationsOfAColumn, 1);
   common.nrelax[1] = 8 / equationsOfAColumn;
   common.nrelax[2] = 24 / equationsOfAColumn;
-  const UninterruptibleCall deaf;
   cholmod_factor* L = nullptr;
   if constexpr (isLong)
     L = cholmod_l_analyze_p(&A, identity.data(), nullptr, 0, &common);
@@ -73,33 +72,35 @@ std::optional<Supernodes> supernodesOf(Columns& columns, int equationsOfAColumn)
 
 }  // namespace
 
-Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside) {
+Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) {
   Elimination result;
   result.size = pattern.size;
   result.kept = static_cast<int>(kept.size());
   if (pattern.size == 0) return result;
 
-  const Runs runs(pattern, kept);
-  const auto keptRuns = static_cast<int>(runs.kept.size());
-  const int size = runs.pattern.size;
+  const Supervariables supervariables(pattern, kept);
+  const auto keptRuns = static_cast<int>(supervariables.kept.size());
+  const int size = supervariables.pattern.size;
   const int interior = size - keptRuns;
-  const std::vector<int> order = orderOfRuns(runs, pattern, aside);
+  const std::vector<int> order = orderOfSupervariables(supervariables, pattern);
+  stopIfInterrupted();
   std::vector<int> position(result.size);
   for (int i = 0; i < size; ++i) position[order[i]] = i;
 
   // The kept equations couple as a clique, so they end up together in the last supernode.
-  Columns columns = permuted(runs.pattern, position, size, interior);
+  Columns columns = permuted(supervariables.pattern, position, size, interior);
   const int equationsOfARun = (result.size + size / 2) / size;
   std::optional<Supernodes> found = supernodesOf<int>(columns, equationsOfARun);
   if (!found)  // factors of more than 2^31 numbers
     found = supernodesOf<SuiteSparse_long>(columns, equationsOfARun);
   if (!found) throw std::runtime_error("symbolic analysis of the tangent failed in CHOLMOD");
   columns = {};
+  stopIfInterrupted();
   const auto& [permutation, super, rowStart, rows] = *found;
   std::vector<int> firstOf{0};  // position of the first equation of each run
   for (int i = 0; i < size; ++i) {
     const int run = order[permutation[i]];
-    for (int equation = runs.first[run]; equation < runs.first[run + 1]; ++equation) {
+    for (int equation = supervariables.first[run]; equation < supervariables.first[run + 1]; ++equation) {
       position[equation] = static_cast<int>(result.order.size());
       result.order.push_back(equation);
     }
@@ -133,6 +134,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
     for (size_t i = front.pivots; i < front.rows.size(); ++i) front.inParent.push_back(index[front.rows[i]]);
   }
 
+  stopIfInterrupted();
   // Every entry of the pattern is assembled where the first of its two positions is eliminated.
   std::vector<size_t> count(fronts + 1, 0);
   const auto forEachEntry = [&](auto visit) {

@@ -36,8 +36,8 @@ struct Elimination {
 };
 
 /// \param kept  equations to be left, in this order, at the end.
-/// \param aside  whether METIS is called in a child process: several threads may then do so at once
-Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside = false);
+/// \throws Interrupted
+Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept);
 
 /// Fronts [first, last]: either whole subtrees, all below the same front, or one front above such pieces.
 struct Piece {

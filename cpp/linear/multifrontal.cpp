@@ -42,9 +42,9 @@ std::unique_ptr<Real[]> inLargePages(size_t count) {
 template <class Real>
 class Multifrontal final : public CondensingSolver {
  public:
-  Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept, bool amongOthers)
+  Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept)
       : symmetric_(pattern.symmetric),
-        plan_(analyse(pattern, kept, amongOthers)),
+        plan_(analyse(pattern, kept)),
         pieces_(cutIntoPieces(plan_.fronts)),
         factors_(plan_.fronts.size()),
         updates_(plan_.fronts.size()),
@@ -334,17 +334,12 @@ class Multifrontal final : public CondensingSolver {
 
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept) {
-  return std::make_unique<Multifrontal<double>>(pattern, kept, false);
+  return std::make_unique<Multifrontal<double>>(pattern, kept);
 }
 
 std::unique_ptr<CondensingSolver> singleSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
   if (!pattern.symmetric) throw std::logic_error("factors in single precision are of symmetric matrices");
-  return std::make_unique<Multifrontal<float>>(pattern, kept, true);
-}
-
-std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
-                                                              const std::vector<int>& kept) {
-  return std::make_unique<Multifrontal<double>>(pattern, kept, true);
+  return std::make_unique<Multifrontal<float>>(pattern, kept);
 }
 
 }  // namespace mortier

@@ -161,7 +161,7 @@ void checkFriction(const ContactDescription& contact, Faults& faults) {
   if (contact.friction.coefficient > large)
     faults.add("friction-large", contact.where,
                "friction = " + shortest(contact.friction.coefficient) +
-                   ": wedges that hold or let go are possible above 1, and the run finds one of them");
+                   ": above 1 several equilibria may exist; the run returns one");
 }
 
 void checkConditions(const LintInput& input, const ContactDescription& contact,

@@ -105,7 +105,7 @@ class DataLint {
   template <class Work>
   void forEachTime(const Expression& datum, Work work) const {
     if (!datum.inTime) return work(0);
-    for (const double part : {0.3819660112501051, 1.0}) work(part * scene_.time.end);
+    for (const double part : {unevenPart, 1.0}) work(part * scene_.time.end);
   }
 
   void tellMissed(const Expression& datum, const Sum& missed) {

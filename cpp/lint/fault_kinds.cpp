@@ -133,12 +133,12 @@ const std::vector<FaultKind>& faultKinds() {
       // Materials.
       {"poisson-limit", warning,
        "Poisson's ratio is next to 0.5 in plane strain, around an axis or on linear tetrahedra",
-       "pressures are wrong and linear elements lock: in the plane leave out volume = \"pointwise\" and "
-       "accuracy.bound, in space take degree = 2; or take poisson <= 0.49"},
+       "pressures are wrong and linear elements lock: leave out volume = \"pointwise\" and accuracy.bound, "
+       "or take poisson <= 0.49"},
       {"flow-locks", warning,
        "flow in plane strain or around an axis on linear triangles that lock, or on linear tetrahedra",
-       "in the plane leave out volume = \"pointwise\" and accuracy.bound, or in plane strain cut cells "
-       "by both diagonals; in space take degree = 2"},
+       "leave out volume = \"pointwise\" and accuracy.bound, or in plane strain cut cells by both "
+       "diagonals, in space take degree = 2"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},
@@ -154,7 +154,7 @@ const std::vector<FaultKind>& faultKinds() {
        "take more steps, or scheme = \"sdirk2\""},
       {"viscosity-large", warning, "the run is over before anything can flow",
        "check the units of viscosity, or of the references of the creep, and of end"},
-      {"viscosity-small", warning, "a step is more relaxation times long than doubles resolve",
+      {"viscosity-small", warning, "step over relaxation time exceeds 1e13: rounding",
        "check the units of viscosity, or of the references of the creep; a larger one gives the same "
        "stresses"},
       {"lands-on-yield", warning, "a step ends exactly on first yield, with interpolation",
@@ -171,7 +171,7 @@ const std::vector<FaultKind>& faultKinds() {
        "let it grow from 0 in a few steps, unless it comes at once"},
       {"load-on-support", warning, "a traction acts on nodes that are held in its direction",
        "take the traction or the support away"},
-      {"kink-between-steps", warning, "an expression changes its law within a step",
+      {"kink-between-steps", warning, "a load has a kink inside a step",
        "choose end and steps so that a step ends there"},
       {"load-between-steps", warning,
        "a load goes, within a step, far beyond its values at both ends of the step",

@@ -71,24 +71,6 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
   }
 }
 
-/// Numbers that t is compared with in an expression: where it may have kinks.
-std::vector<double> kinks(const std::string& text) {
-  std::vector<double> result;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '<' && text[i] != '>') continue;
-    size_t before = i;
-    while (before > 0 && text[before - 1] == ' ') --before;
-    size_t after = i + 1;
-    while (after < text.size() && (text[after] == '=' || text[after] == ' ')) ++after;
-    const bool isTime = before > 0 && text[before - 1] == 't' &&
-                        (before == 1 || std::isalnum(static_cast<unsigned char>(text[before - 2])) == 0);
-    if (!isTime || after >= text.size() || std::isdigit(static_cast<unsigned char>(text[after])) == 0)
-      continue;
-    result.push_back(std::strtod(text.c_str() + after, nullptr));
-  }
-  return result;
-}
-
 /// The first of some times, and how many there are beside it.
 std::string firstOf(const std::vector<double>& times) {
   return shortest(times.front()) +
@@ -107,7 +89,8 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
       " changes at t = ";
   std::vector<double> late;
   std::vector<double> between;
-  for (const double kink : breaks.empty() ? kinks(datum.value->text) : breaks) {
+  const Formulas* formula = datum.value->formula.get();
+  for (const double kink : formula != nullptr ? kinksInTime(*formula) : breaks) {
     if (kink <= 0) continue;
     if (kink > time.end * (1 + onStep))
       late.push_back(kink);

@@ -98,7 +98,7 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, const Vi
   if (step > tooStiff * relaxation)
     faults.add("viscosity-small", material.where("viscosity"),
                subject + "a step is " + digits(step / relaxation, 4) +
-                   " relaxation times long, more than doubles resolve");
+                   " relaxation times long, rounding begins at 1e13");
   if (afterFirstStep > far * flow.yieldStress)
     faults.add("yields-at-once", input.where({"time", "steps"}),
                subject + "the first step goes to " + digits(afterFirstStep, 4) + " " + unit +

@@ -209,8 +209,7 @@ void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults&
   faults.add("far-from-origin", mesh.name,
              "coordinates up to " + digits(distance, 7) + " " + length + " for an extent of " +
                  digits(extent(mesh), 4) + " " + length + ": " +
-                 shortest(std::floor(std::log10(distance / extent(mesh)))) +
-                 " of 16 digits say where the mesh is, not what it is");
+                 shortest(std::floor(std::log10(distance / extent(mesh)))) + " of 16 digits are lost");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "material/component_basis.h"
 #include "material/interior_path.h"
-#include "material/parts.h"
 #include "material/point_material.h"
 
 namespace mortier {
@@ -107,7 +106,7 @@ std::array<Lanes, n * n> loadModuli(const Batch& batch, const Linearisation& law
 
 /// \tparam n  components of the stress
 template <size_t n>
-class AnisotropicMaterial final : public Material, public Pointwise {
+class AnisotropicMaterial final : public Material {
   using Square = Eigen::Matrix<double, n, n>;
 
  public:
@@ -143,11 +142,6 @@ class AnisotropicMaterial final : public Material, public Pointwise {
     const Square root = atPoint(rootInverse_, point);
     const Square inverse = root * root.transpose();
     return -inverse.template block<1, 3>(n - 1, 0).dot(stress) / inverse(n - 1, n - 1);
-  }
-  [[nodiscard]] std::shared_ptr<const Material> restricted(const std::vector<int>& points) const override {
-    auto own = std::make_shared<AnisotropicMaterial>(*this);
-    if (axes_.size() > 0) own->axes_ = axes_(Eigen::all, points).eval();
-    return own;
   }
   [[nodiscard]] bool symmetricTangent() const override { return isotropic_->symmetricTangent(); }
   [[nodiscard]] bool linear() const override { return isotropic_->linear(); }

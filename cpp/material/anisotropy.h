@@ -1,5 +1,5 @@
 // Elasticity by any symmetric elliptic tensor E in axes of its own, for laws whose rate G is a function of
-// the stress. On p, q, r (and s33 in plane strain, stress.h), or six components in space (space.h), such a
+// the stress. On p, q, r (and s33 in plane strain, stress.h), or six components in space, such a
 // tensor is a symmetric matrix. Orthotropic bodies have three axes, the third across the plane, and the
 // compliance
 //   e_i = s_i/E_i - sum_j (nu_ji/E_j) s_j,   nu_ij/E_i = nu_ji/E_j,   2 e_ij = s_ij/G_ij

@@ -50,7 +50,7 @@ class PartsPath final : public InteriorPath {
   Paths paths_;
 };
 
-class Parts final : public Material, public BackStress, public Pointwise {
+class Parts final : public Material, public BackStress {
  public:
   Parts(std::vector<std::shared_ptr<const Material>> materials, std::vector<int> materialOf)
       : materials_(std::move(materials)), materialOf_(std::move(materialOf)) {
@@ -85,13 +85,6 @@ class Parts final : public Material, public BackStress, public Pointwise {
   }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
     return at(point).flows(stress, point, strain);
-  }
-  [[nodiscard]] std::shared_ptr<const Material> restricted(const std::vector<int>& points) const override {
-    std::vector<std::shared_ptr<const Material>> materials;
-    for (const auto& material : materials_) materials.push_back(materialAt(material, points));
-    std::vector<int> materialOf;
-    for (const int point : points) materialOf.push_back(materialOf_[point]);
-    return std::make_shared<Parts>(std::move(materials), std::move(materialOf));
   }
   [[nodiscard]] PointVector backStress(const Matrix& viscoplasticStrain, int point) const override {
     return backStressOf(at(point), viscoplasticStrain, point);

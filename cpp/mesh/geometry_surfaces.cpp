@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_templates.h"
+
 namespace mortier {
 
 std::optional<SharedPoint> sharedPoint(const GeometrySurfaces& geometry, const std::vector<int>& surfaces,

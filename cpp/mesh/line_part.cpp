@@ -98,7 +98,7 @@ double LinePart::size(bool axisymmetric) const {
   return sum;
 }
 
-double LinePart::bulge(double first, double last, int side) const {
+double LinePart::deviation(double first, double last, int side) const {
   double most = 0;
   for (const double s : stretch(std::min(first, last), std::max(first, last))) {
     const double x = (s - first) / (last - first);
@@ -114,7 +114,7 @@ std::array<double, 2> LinePart::above(double first, double last) const {
   const bool overlaps = std::min(high, end_) - std::max(low, begin_) > slack;
   const double largest = overlaps ? 1 : margin_ > 0 ? std::max(weight(first), weight(last)) : 0;
   if (!(margin_ > 0) || first == last) return {largest, largest};
-  const double more = bulge(first, last, 1);
+  const double more = deviation(first, last, 1);
   const std::array<double, 2> linear{weight(first) + more, weight(last) + more};
   return linear[0] + linear[1] < 2 * largest ? linear : std::array{largest, largest};
 }
@@ -122,7 +122,7 @@ std::array<double, 2> LinePart::above(double first, double last) const {
 std::array<double, 2> LinePart::below(double first, double last) const {
   const double least = std::min(weight(first), weight(last));
   if (!(margin_ > 0) || first == last) return {least, least};
-  const double less = bulge(first, last, -1);
+  const double less = deviation(first, last, -1);
   const std::array<double, 2> linear{weight(first) - less, weight(last) - less};
   return linear[0] + linear[1] > 2 * least ? linear : std::array{least, least};
 }

@@ -35,7 +35,7 @@ class LinePart {
   /// The ends of a stretch and the kinks of the weight in it.
   [[nodiscard]] std::vector<double> stretch(double first, double last) const;
   /// How far beside that of its ends the weight is, at most, to a side: +1 above, -1 below.
-  [[nodiscard]] double bulge(double first, double last, int side) const;
+  [[nodiscard]] double deviation(double first, double last, int side) const;
 
   std::vector<Point> points_;
   std::vector<double> places_;  ///< of the points along the line [m]

@@ -15,6 +15,7 @@
 #include "mesh/medit_parser.h"
 #include "mesh/medit_words.h"
 #include "mesh/regions.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -62,44 +63,39 @@ class Parser {
   /// \param solid  whether it is of tetrahedra
   Parser(const MeditText& text, bool solid) : text_(text), words_(text_.path, text_.text), solid_(solid) {}
 
-  TriangleMesh parse(const std::vector<std::string>& regions) {
+  template <class Mesh>
+  Mesh parse(const std::vector<std::string>& regions) {
+    constexpr int dimension = ofTetrahedra<Mesh> ? 3 : 2;
     readAll();
-    TriangleMesh mesh;
-    fill(mesh);
-    for (const SpacePoint& place : places_) mesh.vertices.push_back(place.head<2>());
+    Mesh mesh;
+    mesh.name = text_.path;
+    mesh.labelNames = std::move(labelNames_);
+    mesh.regionNames = std::move(regionNames_);
+    for (const SpacePoint& place : places_) mesh.vertices.push_back(place.head<dimension>());
     ChangedCells changed{false, text_.quadratic > 0};
     ChangedCells ofSides;
-    mesh.regions = addItems(2, mesh.triangles, changed);
-    mesh.boundaryLabels = addItems(1, mesh.boundaryEdges, ofSides);
-    mesh.changed = changed.text("triangles");
-    if (text_.converted && verticesAreThere(mesh)) {
-      for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (doubleArea(mesh, static_cast<int>(t)) < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    mesh.regions = addItems(dimension, elementsOf(mesh), changed);
+    mesh.boundaryLabels = addItems(dimension - 1, labelledSides(mesh), ofSides);
+    mesh.changed = changed.text(elementsWord<Mesh>);
+    const auto areThere = [n = static_cast<int>(places_.size())](const auto& items) {
+      return std::all_of(items.begin(), items.end(), [n](const auto& item) {
+        return std::all_of(item.begin(), item.end(), [n](int v) { return v < n; });
+      });
+    };
+    const bool complete = areThere(elementsOf(mesh)) && areThere(labelledSides(mesh));
+    if (text_.converted && complete) {
+      if constexpr (!ofTetrahedra<Mesh>)
+        for (size_t t = 0; t < mesh.triangles.size(); ++t)
+          if (doubleArea(mesh, static_cast<int>(t)) < 0)
+            std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
       takeGroups(mesh, regions);
-    } else if (!regions.empty() && verticesAreThere(mesh)) {
+    } else if (!regions.empty() && complete) {
       keepRegions(mesh, regions);
+      validate(mesh);
+    } else if constexpr (ofTetrahedra<Mesh>) {
       validate(mesh);
     } else {
       validate(mesh, [this](MeshPart part, int index) { return words_.place(offset(part, index)); });
-    }
-    return mesh;
-  }
-
-  TetrahedronMesh parseSolid(const std::vector<std::string>& regions) {
-    readAll();
-    TetrahedronMesh mesh;
-    fill(mesh);
-    mesh.vertices = std::move(places_);
-    ChangedCells changed{false, text_.quadratic > 0};
-    ChangedCells ofSides;
-    mesh.regions = addItems(3, mesh.tetrahedra, changed);
-    mesh.boundaryLabels = addItems(2, mesh.boundaryTriangles, ofSides);
-    mesh.changed = changed.text("tetrahedra");
-    if (text_.converted) {
-      takeGroups(mesh, regions);
-    } else {
-      if (!regions.empty()) keepRegions(mesh, regions);
-      validate(mesh);
     }
     return mesh;
   }
@@ -114,13 +110,6 @@ class Parser {
     Section section;
     std::vector<int> corners, labels;
   };
-
-  template <class Mesh>
-  void fill(Mesh& mesh) {
-    mesh.name = text_.path;
-    mesh.labelNames = std::move(labelNames_);
-    mesh.regionNames = std::move(regionNames_);
-  }
 
   /// Cuts the items of a dimension. \returns the labels of what they become
   template <size_t n>
@@ -185,15 +174,6 @@ class Parser {
       if (name->of == "label") labelNames_[std::string(name->name)] = name->number;
       if (name->of == "region") regionNames_[std::string(name->name)] = name->number;
     }
-  }
-
-  static bool verticesAreThere(const TriangleMesh& mesh) {
-    const int n = int(mesh.vertices.size());
-    const auto isThere = [n](int v) { return v < n; };
-    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                       [&](const auto& t) { return std::all_of(t.begin(), t.end(), isThere); }) &&
-           std::all_of(mesh.boundaryEdges.begin(), mesh.boundaryEdges.end(),
-                       [&](const auto& e) { return std::all_of(e.begin(), e.end(), isThere); });
   }
 
   /// Whether there are triangles or more, after which a file may end without End, as FreeFEM reads it.
@@ -316,11 +296,11 @@ class Parser {
 }  // namespace
 
 TriangleMesh parseMedit(const MeditText& text, const std::vector<std::string>& regions) {
-  return Parser(text, false).parse(regions);
+  return Parser(text, false).parse<TriangleMesh>(regions);
 }
 
 TetrahedronMesh parseSpaceMedit(const MeditText& text, const std::vector<std::string>& regions) {
-  return Parser(text, true).parseSolid(regions);
+  return Parser(text, true).parse<TetrahedronMesh>(regions);
 }
 
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions) {

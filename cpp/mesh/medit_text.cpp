@@ -3,6 +3,7 @@
 
 #include "base/whole_file.h"
 #include "mesh/read.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -31,7 +32,16 @@ void appendItems(std::string& out, const char* section, const std::vector<std::a
 }
 
 template <class Mesh>
-void appendEnd(std::string& out, const Mesh& mesh) {
+std::string textOf(const Mesh& mesh) {
+  std::string out = "MeshVersionFormatted 2\nDimension ";
+  out += ofTetrahedra<Mesh> ? "3\n\nVertices\n" : "2\n\nVertices\n";
+  append(out, mesh.vertices.size(), '\n');
+  for (const auto& p : mesh.vertices) {
+    for (const double x : p) append(out, x, ' ');
+    out += "0\n";
+  }
+  appendItems(out, ofTetrahedra<Mesh> ? "Triangles" : "Edges", labelledSides(mesh), mesh.boundaryLabels);
+  appendItems(out, ofTetrahedra<Mesh> ? "Tetrahedra" : "Triangles", elementsOf(mesh), mesh.regions);
   out += "\nEnd\n";
   const auto appendNames = [&](const char* of, const std::map<std::string, int>& names) {
     for (const auto& [name, number] : names)
@@ -39,35 +49,16 @@ void appendEnd(std::string& out, const Mesh& mesh) {
   };
   appendNames("label", mesh.labelNames);
   appendNames("region", mesh.regionNames);
+  return out;
 }
 
 }  // namespace
 
 std::string meditText(const TriangleMesh& mesh) {
-  std::string out = "MeshVersionFormatted 2\nDimension 2\n\nVertices\n";
-  append(out, mesh.vertices.size(), '\n');
-  for (const Point& p : mesh.vertices) {
-    append(out, p.x(), ' ');
-    append(out, p.y(), ' ');
-    out += "0\n";
-  }
-  appendItems(out, "Edges", mesh.boundaryEdges, mesh.boundaryLabels);
-  appendItems(out, "Triangles", mesh.triangles, mesh.regions);
-  appendEnd(out, mesh);
-  return out;
+  return textOf(mesh);
 }
-
 std::string meditText(const TetrahedronMesh& mesh) {
-  std::string out = "MeshVersionFormatted 2\nDimension 3\n\nVertices\n";
-  append(out, mesh.vertices.size(), '\n');
-  for (const SpacePoint& p : mesh.vertices) {
-    for (const double x : p) append(out, x, ' ');
-    out += "0\n";
-  }
-  appendItems(out, "Triangles", mesh.boundaryTriangles, mesh.boundaryLabels);
-  appendItems(out, "Tetrahedra", mesh.tetrahedra, mesh.regions);
-  appendEnd(out, mesh);
-  return out;
+  return textOf(mesh);
 }
 
 void writeMedit(const TriangleMesh& mesh, const std::string& path) {

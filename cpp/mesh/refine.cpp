@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
 
-constexpr int none = -1;
+/// Of an edge, in place of the vertex that cuts it.
+constexpr int none = -1, due = -2;
 
 /// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex
 /// numbers, so that two triangles choose alike.
@@ -19,113 +24,94 @@ std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3>
   return triangle;
 }
 
+/// A triangle is cut through its base, and its halves through its other sides. So unlike in space
+/// (refine_space.cpp), where halves have longest edges of their own, all edges to be cut are known before the
+/// first cut.
 class Bisection {
  public:
-  Bisection(const TriangleMesh& mesh, const CurvedEdges& curves) : old_(mesh), curves_(curves) {
-    for (const auto& triangle : mesh.triangles) triangles_.push_back(onItsLongestSide(mesh, triangle));
-    numberEdges();
+  Bisection(const TriangleMesh& mesh, const CurvedEdges& curves) : old_(mesh) {
+    result_.mesh = mesh;
+    result_.curves = curves;
+    for (auto& triangle : result_.mesh.triangles) triangle = onItsLongestSide(mesh, triangle);
+    sides_ = sortedSides(result_.mesh);
+    triangles_ = std::exchange(result_.mesh.triangles, {});
+    edges_.resize(sides_.size());
+    for (size_t i = 0; i < sides_.size(); ++i) {
+      const bool isNew = i == 0 || sides_[i].edge != sides_[i - 1].edge;
+      edges_[sides_[i].place] = isNew ? static_cast<int>(i) : edges_[sides_[i - 1].place];
+    }
+    middle_.assign(sides_.size(), none);
     for (size_t e = 0; e < mesh.edgeCurves.size(); ++e)
-      if (mesh.hasCurve(e)) ownCurves_[mesh.boundaryEdges[e]] = &mesh.edgeCurves[e];
-    cut_.assign(triangleOf_.size(), 0);
+      if (mesh.hasCurve(e)) ownCurves_[edgeOf(mesh.boundaryEdges[e])] = &mesh.edgeCurves[e];
   }
 
   RefinedMesh run(const std::vector<char>& marked) {
     for (size_t t = 0; t < marked.size(); ++t)
-      if (marked[t] != 0) cut(sides_[t][0]);
+      if (marked[t] != 0) cut(edges_[3 * t]);
     close();
-    result_.mesh = old_;
     addVertices();
     addTriangles();
     while (putBackWhatTurnsOver()) {
     }
     addBoundary();
-    addMiddles();
     return std::move(result_);
   }
 
  private:
-  void numberEdges() {
-    std::unordered_map<int64_t, int> number;
-    const auto vertices = static_cast<int64_t>(old_.vertices.size());
-    for (size_t t = 0; t < triangles_.size(); ++t) {
-      const auto& v = triangles_[t];
-      std::array<int, 3> sides{};
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(v[k], v[(k + 1) % 3]);
-        const auto [found, isNew] =
-            number.try_emplace(low * vertices + high, static_cast<int>(triangleOf_.size()));
-        if (isNew)
-          triangleOf_.push_back({static_cast<int>(t), none});
-        else
-          triangleOf_[found->second][1] = static_cast<int>(t);
-        sides[k] = found->second;
-      }
-      sides_.push_back(sides);
-    }
+  [[nodiscard]] int edgeOf(const std::array<int, 2>& ends) const {
+    return edges_[sidesOn(sides_, ends[0], ends[1]).front().place];
   }
 
   void cut(int edge) {
-    if (cut_[edge] != 0) return;
-    cut_[edge] = 1;
-    fresh_.push_back(edge);
+    if (std::exchange(middle_[edge], due) != due) fresh_.push_back(edge);
   }
 
   /// A triangle with a side that is cut has its base cut.
   void close() {
     while (!fresh_.empty()) {
-      const int edge = fresh_.back();
+      const auto edge = static_cast<size_t>(fresh_.back());
       fresh_.pop_back();
-      for (const int t : triangleOf_[edge])
-        if (t != none) cut(sides_[t][0]);
+      for (size_t i = edge; i < sides_.size() && sides_[i].edge == sides_[edge].edge; ++i)
+        cut(edges_[3 * sides_[i].triangle()]);
     }
   }
 
-  [[nodiscard]] double curvature(int a, int b) const {
-    const auto found = curves_.find({a, b});
-    if (found != curves_.end()) return found->second;
-    const auto reversed = curves_.find({b, a});
-    return reversed != curves_.end() ? -reversed->second : 0;
-  }
-
+  /// In the order in which triangles have their edges.
   void addVertices() {
-    middle_.assign(triangleOf_.size(), none);
-    result_.curves = curves_;
-    for (size_t t = 0; t < sides_.size(); ++t)
-      for (int k = 0; k < 3; ++k) {
-        const int edge = sides_[t][k];
-        if (cut_[edge] == 0 || middle_[edge] != none) continue;
-        addVertex(edge, triangles_[t][k], triangles_[t][(k + 1) % 3]);
-      }
+    for (size_t place = 0; place < edges_.size(); ++place) {
+      stopIfInterrupted();
+      const std::array<int, 3>& triangle = triangles_[place / 3];
+      if (middle_[edges_[place]] == due)
+        addVertex(edges_[place], triangle[place % 3], triangle[(place + 1) % 3]);
+    }
   }
 
   void addVertex(int edge, int a, int b) {
+    CurvedEdges& curves = result_.curves;
     const auto m = static_cast<int>(result_.mesh.vertices.size());
     middle_[edge] = m;
-    result_.cutEdges.push_back({a, b});
-    if (const auto own = ownCurves_.find({a, b}); own != ownCurves_.end()) {  // of one triangle, as its side
+    if (const auto own = ownCurves_.find(edge); own != ownCurves_.end()) {  // of one triangle, as its side
       places_[m] = own->second->middle();
       result_.mesh.vertices.push_back(own->second->at(places_[m]));
       moved_[m] = {a, b};
       return;
     }
-    const double bend = curvature(a, b);
+    const auto forwards = curves.extract({a, b}), backwards = curves.extract({b, a});
+    const double bend = !forwards.empty() ? forwards.mapped() : !backwards.empty() ? -backwards.mapped() : 0;
     result_.mesh.vertices.push_back(middleOfArc(old_.vertices[a], old_.vertices[b], bend));
     if (bend == 0) return;
     moved_[m] = {a, b};
-    result_.curves.erase({a, b});
-    result_.curves.erase({b, a});
-    result_.curves[{a, m}] = result_.curves[{m, b}] = bend;
+    curves[{a, m}] = curves[{m, b}] = bend;
   }
 
   void addTriangles() {
-    result_.mesh.triangles.clear();
     result_.mesh.regions.clear();
-    for (size_t t = 0; t < sides_.size(); ++t) {
-      const auto& [ab, bc, ca] = sides_[t];
-      add(triangles_[t], {middle_[ab], middle_[bc], middle_[ca]});
-      const size_t pieces = result_.mesh.triangles.size() - result_.parents.size();
-      result_.parents.insert(result_.parents.end(), pieces, static_cast<int>(t));
-      result_.mesh.regions.insert(result_.mesh.regions.end(), pieces, old_.regions[t]);
+    for (size_t t = 0; t < triangles_.size(); ++t) {
+      stopIfInterrupted();
+      const int* edges = &edges_[3 * t];
+      add(triangles_[t], {middle_[edges[0]], middle_[edges[1]], middle_[edges[2]]});
+      result_.parents.resize(result_.mesh.triangles.size(), static_cast<int>(t));
+      result_.mesh.regions.resize(result_.mesh.triangles.size(), old_.regions[t]);
     }
   }
 
@@ -145,14 +131,10 @@ class Bisection {
   bool putBackWhatTurnsOver() {
     constexpr double least = 0.25;  // of the share of the area that a piece has on straight edges
     bool any = false;
-    TriangleMesh& mesh = result_.mesh;
-    for (size_t begin = 0, end = 0; begin < mesh.triangles.size() && !moved_.empty(); begin = end) {
-      while (end < mesh.triangles.size() && result_.parents[end] == result_.parents[begin]) ++end;
-      const double share = doubleArea(old_, result_.parents[begin]) / 4;
-      for (size_t t = begin; t < end; ++t) {
-        if (doubleArea(mesh, static_cast<int>(t)) > least * share) continue;
-        for (const int v : mesh.triangles[t]) any = putBack(v) || any;
-      }
+    for (size_t t = 0; t < result_.parents.size() && !moved_.empty(); ++t) {
+      const double share = doubleArea(old_, result_.parents[t]) / 4;
+      if (doubleArea(result_.mesh, static_cast<int>(t)) > least * share) continue;
+      for (const int v : result_.mesh.triangles[t]) any = putBack(v) || any;
     }
     return any;
   }
@@ -171,69 +153,55 @@ class Bisection {
   }
 
   void addBoundary() {
-    std::map<std::array<int, 2>, int> edges;
-    for (size_t t = 0; t < sides_.size(); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (cut_[sides_[t][k]] != 0)
-          edges[{triangles_[t][k], triangles_[t][(k + 1) % 3]}] = middle_[sides_[t][k]];
-    result_.mesh.boundaryEdges.clear();
-    result_.mesh.boundaryLabels.clear();
-    result_.mesh.edgeCurves.clear();
+    TriangleMesh& mesh = result_.mesh;
+    mesh.boundaryEdges.clear();
+    mesh.boundaryLabels.clear();
+    mesh.edgeCurves.clear();
+    mesh.edgeMiddles.clear();
+    const bool anyMiddle = !old_.edgeMiddles.empty() || !result_.curves.empty();
     const auto push = [&](int a, int b, size_t from, const EdgeCurve& curve) {
-      result_.mesh.boundaryEdges.push_back({a, b});
-      result_.mesh.boundaryLabels.push_back(old_.boundaryLabels[from]);
-      if (!old_.edgeCurves.empty()) result_.mesh.edgeCurves.push_back(curve);
-      from_.push_back(from);
+      mesh.boundaryEdges.push_back({a, b});
+      mesh.boundaryLabels.push_back(old_.boundaryLabels[from]);
+      if (!old_.edgeCurves.empty()) mesh.edgeCurves.push_back(curve);
+      if (anyMiddle) mesh.edgeMiddles.push_back(middleOf({a, b}, from, curve));
     };
     for (size_t e = 0; e < old_.boundaryEdges.size(); ++e) {
       const auto [a, b] = old_.boundaryEdges[e];
-      const auto found = edges.find({a, b});
-      const EdgeCurve curve = old_.hasCurve(e) ? old_.edgeCurves[e] : EdgeCurve{};
-      if (found == edges.end()) {
-        push(a, b, e, curve);
+      const int m = middle_[edgeOf({a, b})];
+      const EdgeCurve whole = old_.hasCurve(e) ? old_.edgeCurves[e] : EdgeCurve{};
+      const auto place = places_.find(m);
+      const bool onCurve = place != places_.end();
+      if (m == none) {
+        push(a, b, e, whole);
         continue;
       }
-      const auto place = places_.find(found->second);
-      const bool onCurve = place != places_.end();
-      push(a, found->second, e, onCurve ? EdgeCurve{curve.curve, curve.from, place->second} : EdgeCurve{});
-      push(found->second, b, e, onCurve ? EdgeCurve{curve.curve, place->second, curve.to} : EdgeCurve{});
+      push(a, m, e, onCurve ? EdgeCurve{whole.curve, whole.from, place->second} : EdgeCurve{});
+      push(m, b, e, onCurve ? EdgeCurve{whole.curve, place->second, whole.to} : EdgeCurve{});
     }
   }
 
-  void addMiddles() {
-    TriangleMesh& mesh = result_.mesh;
-    if (old_.edgeMiddles.empty() && result_.curves.empty()) return;
-    const double unknown = std::numeric_limits<double>::quiet_NaN();
-    mesh.edgeMiddles.clear();
-    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-      const auto& [a, b] = mesh.boundaryEdges[e];
-      const auto curve = result_.curves.find({a, b});
-      const bool whole = mesh.boundaryEdges[e] == old_.boundaryEdges[from_[e]];
-      if (whole && !old_.edgeMiddles.empty() && old_.edgeMiddles[from_[e]].allFinite())
-        mesh.edgeMiddles.push_back(old_.edgeMiddles[from_[e]]);
-      else if (mesh.hasCurve(e))
-        mesh.edgeMiddles.push_back(mesh.edgeCurves[e].at(mesh.edgeCurves[e].middle()));
-      else if (isStraight(old_, from_[e]))
-        mesh.edgeMiddles.emplace_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
-      else if (curve != result_.curves.end())
-        mesh.edgeMiddles.push_back(middleOfArc(mesh.vertices[a], mesh.vertices[b], curve->second));
-      else
-        mesh.edgeMiddles.emplace_back(unknown, unknown);
-    }
+  /// Of an edge of the boundary. \param from  that of which it is a part or the whole
+  [[nodiscard]] Point middleOf(const std::array<int, 2>& edge, size_t from, const EdgeCurve& curve) const {
+    const Point& a = result_.mesh.vertices[edge[0]];
+    const Point& b = result_.mesh.vertices[edge[1]];
+    const bool isWhole = edge == old_.boundaryEdges[from] && !old_.edgeMiddles.empty();
+    if (isWhole && old_.edgeMiddles[from].allFinite()) return old_.edgeMiddles[from];
+    if (curve.known()) return curve.at(curve.middle());
+    if (isStraight(old_, from)) return (a + b) / 2;
+    const auto bend = result_.curves.find(edge);
+    if (bend != result_.curves.end()) return middleOfArc(a, b, bend->second);
+    return Point::Constant(std::numeric_limits<double>::quiet_NaN());
   }
 
   const TriangleMesh& old_;
-  const CurvedEdges& curves_;
-  std::vector<std::array<int, 3>> triangles_;   // on their longest sides
-  std::vector<std::array<int, 3>> sides_;       // of each triangle, the numbers of its edges
-  std::vector<std::array<int, 2>> triangleOf_;  // of each edge
-  std::vector<char> cut_;                       // edges
-  std::vector<int> fresh_;                      // edges that are cut, and their triangles not yet looked at
-  std::vector<int> middle_;                     // of edges that are cut
-  std::map<std::array<int, 2>, const EdgeCurve*> ownCurves_;  // of the mesh, by the vertices of their edges
-  std::map<int, double> places_;                              // of new vertices on them
-  std::map<int, std::array<int, 2>> moved_;  // new vertices on arcs or curves, and the ends of their edges
-  std::vector<size_t> from_;                 // of each boundary edge, the one before
+  std::vector<std::array<int, 3>> triangles_;  // on their longest sides
+  TriangleSides sides_;                        // of these
+  std::vector<int> edges_;                     // by places of sides, the first of those on the same edge
+  std::vector<int> middle_;                    // of edges
+  std::vector<int> fresh_;                     // edges that are cut, and their triangles not yet looked at
+  std::map<int, const EdgeCurve*> ownCurves_;  // of the mesh, by their edges
+  std::map<int, double> places_;               // of new vertices on them
+  std::map<int, std::array<int, 2>> moved_;    // new vertices on arcs or curves, and the ends of their edges
   RefinedMesh result_;
 };
 

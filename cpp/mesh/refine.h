@@ -26,10 +26,9 @@ using CurvedEdges = std::map<std::array<int, 2>, double>;
 /// Of triangles or tetrahedra.
 template <class Mesh, class Curves>
 struct BisectedMesh {
-  Mesh mesh;                 ///< the vertices of the mesh before, and new ones behind them
-  Curves curves;             ///< of its edges
-  std::vector<int> parents;  ///< of each element, that of the mesh before of which it is a part
-  std::vector<std::array<int, 2>> cutEdges;  ///< by new vertices: the edge in whose middle they are
+  Mesh mesh;                  ///< the vertices of the mesh before, and new ones behind them
+  Curves curves;              ///< of its edges
+  std::vector<int> parents;   ///< of each element, that of the mesh before of which it is a part
   std::vector<int> offCurve;  ///< new vertices that are off their curve: on it, an element would turn over
 };
 using RefinedMesh = BisectedMesh<TriangleMesh, CurvedEdges>;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/interrupt.h"
 #include "mesh/cut_simplices.h"
 
 namespace mortier {
@@ -29,9 +30,7 @@ class SpaceBisection {
         labelled_(mesh.boundaryTriangles, mesh.vertices.size()),
         curved_(curves.triangles, mesh.vertices.size()) {
     result_.mesh = mesh;
-    result_.curves.normals = curves.normals;
-    result_.curves.geometry = curves.geometry;
-    oldParts_ = curves.parts;
+    result_.curves = curves;
     onSurface_ = 1e-11 * extent(mesh);
     for (size_t t = 0; t < tetrahedra_.count(); ++t) longest_.push_back(longestOf(static_cast<int>(t)));
     isCut_.assign(tetrahedra_.count(), 0);
@@ -42,9 +41,11 @@ class SpaceBisection {
     for (size_t t = 0; t < marked.size(); ++t)
       if (marked[t] != 0) pending.push_back(static_cast<int>(t));
     while (!pending.empty()) {
-      for (const Edge& edge : ripe(pending)) cut(edge);
-      const auto done = [&](int t) { return isCut_[t] != 0; };
-      pending.erase(std::remove_if(pending.begin(), pending.end(), done), pending.end());
+      for (const Edge& edge : ripe(pending)) {
+        stopIfInterrupted();
+        cut(edge);
+      }
+      std::erase_if(pending, [&](int t) { return isCut_[t] != 0; });
     }
     collect();
     return std::move(result_);
@@ -61,15 +62,14 @@ class SpaceBisection {
   /// The edges on the way to the longest ones of tetrahedra that can be cut at once, ascending.
   [[nodiscard]] std::vector<Edge> ripe(const std::vector<int>& pending) const {
     std::set<Edge> seen;
-    std::vector<Edge> open;
-    std::vector<Edge> found;
+    std::vector<Edge> way, found;
     const auto visit = [&](const Edge& edge) {
-      if (seen.insert(edge).second) open.push_back(edge);
+      if (seen.insert(edge).second) way.push_back(edge);
     };
     for (const int t : pending) visit(longest_[t]);
-    while (!open.empty()) {
-      const Edge edge = open.back();
-      open.pop_back();
+    for (size_t i = 0; i < way.size(); ++i) {
+      stopIfInterrupted();
+      const Edge edge = way[i];
       bool longestOfAll = true;
       for (const int t : tetrahedra_.around(edge)) {
         if (longest_[t] == edge) continue;
@@ -85,12 +85,17 @@ class SpaceBisection {
   void cut(const Edge& edge) {
     const std::vector<int> around = tetrahedra_.around(edge);
     const auto m = static_cast<int>(result_.mesh.vertices.size());
-    result_.cutEdges.push_back(edge);
     result_.mesh.vertices.push_back((place(edge[0]) + place(edge[1])) / 2);
     const std::vector<int> surface = curved_.around(edge);
     putOntoCurve(m, edge, surface, around);
-    for (const int i : surface) curved_.cut(i, edge, m);
-    for (const int i : labelled_.around(edge)) labelled_.cut(i, edge, m);
+    for (const int i : surface) {
+      curved_.cut(i, edge, m);
+      result_.curves.parts.push_back(result_.curves.parts[i]);
+    }
+    for (const int i : labelled_.around(edge)) {
+      labelled_.cut(i, edge, m);
+      result_.mesh.boundaryLabels.push_back(result_.mesh.boundaryLabels[i]);
+    }
     for (const int t : around) {
       isCut_[t] = 1;
       tetrahedra_.cut(t, edge, m);
@@ -105,7 +110,7 @@ class SpaceBisection {
   void putOntoCurve(int m, const Edge& edge, const std::vector<int>& surface,
                     const std::vector<int>& around) {
     std::set<int> parts;
-    for (const int i : surface) parts.insert(oldParts_[curved_.parent(i)]);
+    for (const int i : surface) parts.insert(result_.curves.parts[i]);
     if (parts.empty()) return;
     const SpacePoint d = place(edge[1]) - place(edge[0]);
     const SpacePoint sagitta = sagittaOver(edge, d, {parts.begin(), parts.end()});
@@ -135,11 +140,9 @@ class SpaceBisection {
     std::vector<int> surfaces;
     std::vector<SpacePoint> facets;
     for (const int i : triangles) {
-      const int part = oldParts_[curved_.parent(i)];
-      if (part >= 0) continue;
       const auto& [a, b, c] = curved_[i];
-      const int surface = surfaceOfPart(part);
-      if (std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end()) continue;
+      const int surface = surfaceOfPart(result_.curves.parts[i]);
+      if (surface < 0 || std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end()) continue;
       surfaces.push_back(surface);
       facets.push_back((place(b) - place(a)).cross(place(c) - place(a)));
     }
@@ -249,36 +252,29 @@ class SpaceBisection {
       result_.parents.push_back(tetrahedra_.parent(t));
     }
     mesh.boundaryTriangles = labelled_.all();
-    mesh.boundaryLabels.clear();
-    for (size_t i = 0; i < labelled_.count(); ++i)
-      mesh.boundaryLabels.push_back(old_.boundaryLabels[labelled_.parent(static_cast<int>(i))]);
-    keepNormals();
     result_.curves.triangles = curved_.all();
-    for (size_t i = 0; i < curved_.count(); ++i)
-      result_.curves.parts.push_back(oldParts_[curved_.parent(static_cast<int>(i))]);
+    keepNormals();
   }
 
   /// Those of the geometry at new vertices where it knows their surfaces, at others those before.
   void keepNormals() {
-    std::vector<std::array<SpacePoint, 3>>& normals = result_.mesh.boundaryNormals;
-    normals.clear();
+    if (old_.boundaryNormals.empty()) return;
+    result_.mesh.boundaryNormals.clear();
+    const SpacePoint unknown = SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
     std::map<std::array<int, 3>, int> partOf;
     for (size_t i = 0; i < curved_.count(); ++i)
-      if (const int part = oldParts_[curved_.parent(static_cast<int>(i))]; part < 0)
-        partOf[sortedTriangle(curved_.all()[i])] = part;
-    for (size_t i = 0; i < labelled_.count() && !old_.boundaryNormals.empty(); ++i) {
-      const auto known = partOf.find(sortedTriangle(labelled_.all()[i]));
+      if (result_.curves.parts[i] < 0) partOf[sortedTriangle(curved_.all()[i])] = result_.curves.parts[i];
+    for (size_t i = 0; i < labelled_.count(); ++i) {
+      const std::array<int, 3>& triangle = labelled_.all()[i];
+      const auto known = partOf.find(sortedTriangle(triangle));
       const auto parent = static_cast<size_t>(labelled_.parent(static_cast<int>(i)));
       const auto& before = old_.boundaryTriangles[parent];
-      std::array<SpacePoint, 3>& own = normals.emplace_back();
+      std::array<SpacePoint, 3>& own = result_.mesh.boundaryNormals.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
-        const auto at = std::find(before.begin(), before.end(), labelled_.all()[i][k]);
-        if (known != partOf.end())
-          own[k] = normal(labelled_.all()[i][k], known->second);
-        else if (at != before.end())
-          own[k] = old_.boundaryNormals[parent][static_cast<size_t>(at - before.begin())];
-        else
-          own[k].setConstant(std::numeric_limits<double>::quiet_NaN());
+        const auto at = std::find(before.begin(), before.end(), triangle[k]) - before.begin();
+        own[k] = known != partOf.end() ? normal(triangle[k], known->second)
+                 : at < 3              ? old_.boundaryNormals[parent][static_cast<size_t>(at)]
+                                       : unknown;
       }
     }
   }
@@ -286,10 +282,9 @@ class SpaceBisection {
   const TetrahedronMesh& old_;
   CutSimplices<4> tetrahedra_;
   CutSimplices<3> labelled_, curved_;  ///< triangles of the boundary
-  std::vector<int> oldParts_;
-  std::vector<Edge> longest_;  ///< of tetrahedra, smaller vertex first
-  std::vector<char> isCut_;    ///< tetrahedra of the mesh before, and all new ones
-  double onSurface_ = 0;       ///< distance of vertices that are on their surfaces [m]
+  std::vector<Edge> longest_;          ///< of tetrahedra, smaller vertex first
+  std::vector<char> isCut_;            ///< tetrahedra of the mesh before, and all new ones
+  double onSurface_ = 0;               ///< distance of vertices that are on their surfaces [m]
   RefinedTetrahedra result_;
 };
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "mesh/simplices.h"
 #include "mesh/triangle_sides.h"
 
 namespace mortier {
@@ -52,20 +52,32 @@ void keepItems(const Keep& keep, Items& items, Others&... others) {
   (end(items), (end(others), ...));
 }
 
-template <class Keep>
-void keepEdges(TriangleMesh& mesh, const Keep& keep) {
-  keepItems(keep, mesh.boundaryEdges, mesh.boundaryLabels, mesh.edgeMiddles, mesh.edgeCurves);
+/// Calls use with the labelled sides of a mesh, their labels, and what else goes with them.
+template <class Mesh, class Use>
+void withSides(Mesh& mesh, const Use& use) {
+  if constexpr (ofTetrahedra<Mesh>)
+    use(mesh.boundaryTriangles, mesh.boundaryLabels, mesh.boundaryNormals);
+  else
+    use(mesh.boundaryEdges, mesh.boundaryLabels, mesh.edgeMiddles, mesh.edgeCurves);
 }
 
-template <class Keep>
-void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
-  keepItems(keep, mesh.boundaryTriangles, mesh.boundaryLabels, mesh.boundaryNormals);
-  keepItems(keep, mesh.geometry.triangles, mesh.geometry.numbers);
+/// Keeps the sides that belong to so many elements. \param good  of that number
+template <class Mesh, class Good>
+void keepSides(Mesh& mesh, const Good& good) {
+  if constexpr (ofTetrahedra<Mesh>) {
+    const TriangleCount count(mesh);
+    const auto keep = [&](const std::array<int, 3>& triangle) { return good(count(triangle)); };
+    withSides(mesh, [&](auto&... lists) { keepItems(keep, lists...); });
+    keepItems(keep, mesh.geometry.triangles, mesh.geometry.numbers);
+  } else {
+    const TriangleSides sides = sortedSides(mesh);
+    const auto keep = [&](const auto& edge) { return good(sidesOn(sides, edge[0], edge[1]).size()); };
+    withSides(mesh, [&](auto&... lists) { keepItems(keep, lists...); });
+  }
 }
 
-/// \param elements  triangles or tetrahedra of the mesh
-template <class Mesh, class Elements>
-void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>& regions) {
+template <class Mesh>
+void keepElements(Mesh& mesh, const std::vector<std::string>& regions) {
   std::set<int> wanted;
   for (const std::string& region : regions) wanted.insert(numberOf(region, mesh));
   const auto isWanted = [&](int region) { return wanted.contains(region); };
@@ -74,28 +86,27 @@ void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>
     return isWanted(region) || (groups != mesh.sharedRegions.end() &&
                                 std::any_of(groups->second.begin(), groups->second.end(), isWanted));
   };
-  keepItems(isKept, mesh.regions, elements);
+  keepItems(isKept, mesh.regions, elementsOf(mesh));
 }
 
 /// Leaves out vertices that none of the elements has, and numbers the others by their order in them.
-template <class Mesh, class Elements, class... Boundary>
-void renumberVertices(Mesh& mesh, Elements& elements, Boundary&... boundary) {
+template <class Mesh>
+void renumberVertices(Mesh& mesh) {
   std::vector<int> numbers(mesh.vertices.size(), -1);
   auto vertices = std::exchange(mesh.vertices, {});
-  const auto renumber = [&](int& v) {
-    if (numbers[v] < 0) {
-      numbers[v] = static_cast<int>(mesh.vertices.size());
-      mesh.vertices.push_back(vertices[v]);
-    }
-    v = numbers[v];
-  };
-  for (auto& corners : elements)
-    for (int& v : corners) renumber(v);
-  const auto renumberAll = [&](auto& items) {
+  const auto renumber = [&](auto& items) {
     for (auto& item : items)
-      for (int& v : item) renumber(v);
+      for (int& v : item) {
+        if (numbers[v] < 0) {
+          numbers[v] = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(vertices[v]);
+        }
+        v = numbers[v];
+      }
   };
-  (renumberAll(boundary), ...);
+  renumber(elementsOf(mesh));
+  renumber(labelledSides(mesh));
+  if constexpr (ofTetrahedra<Mesh>) renumber(mesh.geometry.triangles);
 }
 
 using Names = std::map<std::string, int>;
@@ -164,9 +175,9 @@ void joinGroups(Items& items, std::vector<int>& numbers, Names& names,
 /// \param items  sides or elements, of which numbers[i] is that of the i-th  \param place  of an item, as
 /// text
 template <class Items, class Place>
-void chooseGroups(const std::string& mesh, const char* what, const Items& items, std::vector<int>& numbers,
-                  const Names& names, std::map<int, std::vector<int>>& shared, const std::set<int>& used,
-                  const Place& place) {
+void choose(const std::string& mesh, const std::string& what, const Items& items, std::vector<int>& numbers,
+            const Names& names, std::map<int, std::vector<int>>& shared, const std::set<int>& used,
+            const Place& place) {
   for (size_t i = 0; i < items.size() && !shared.empty(); ++i) {
     const auto groups = shared.find(numbers[i]);
     if (groups == shared.end()) continue;
@@ -175,7 +186,7 @@ void chooseGroups(const std::string& mesh, const char* what, const Items& items,
     for (const int group : groups->second)
       if (used.contains(group)) chosen.push_back(group);
     if (chosen.size() > 1)
-      throw FaultError(mesh + ": " + what + " at " + place(items[i]) + " is in the groups " +
+      throw FaultError(mesh + ": a " + what + " at " + place(items[i]) + " is in the groups " +
                            nameOf(chosen[0], names) + " and " + nameOf(chosen[1], names) +
                            ", and the scene names both, expected groups that share none",
                        "label-twice");
@@ -190,10 +201,10 @@ std::string placeOf(const Mesh& mesh, const Item& item) {
   auto sum = mesh.vertices[item[0]];
   for (size_t k = 1; k < item.size(); ++k) sum += mesh.vertices[item[k]];
   sum /= static_cast<double>(item.size());
-  if constexpr (std::is_same_v<Mesh, TriangleMesh>)
-    return placeText(sum);
-  else
+  if constexpr (ofTetrahedra<Mesh>)
     return placeText(sum, 3);
+  else
+    return placeText(sum);
 }
 
 }  // namespace
@@ -205,67 +216,46 @@ std::set<int> knownNumbers(const std::vector<int>& present, const std::map<int, 
   return known;
 }
 
-void takeGroups(TriangleMesh& mesh, const std::vector<std::string>& regions) {
-  joinGroups(mesh.triangles, mesh.regions, mesh.regionNames, mesh.sharedRegions);
-  joinGroups(mesh.boundaryEdges, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels, mesh.edgeMiddles,
-             mesh.edgeCurves);
+template <class Mesh>
+void keepRegions(Mesh& mesh, const std::vector<std::string>& regions) {
+  keepElements(mesh, regions);
+  keepSides(mesh, [](auto elements) { return elements == 1; });
+  renumberVertices(mesh);
+}
+
+template <class Mesh>
+void dropInnerSides(Mesh& mesh) {
+  keepSides(mesh, [](auto elements) { return elements < 2; });
+}
+
+template <class Mesh>
+void takeGroups(Mesh& mesh, const std::vector<std::string>& regions) {
+  joinGroups(elementsOf(mesh), mesh.regions, mesh.regionNames, mesh.sharedRegions);
+  withSides(mesh, [&](auto& sides, auto& labels, auto&... others) {
+    joinGroups(sides, labels, mesh.labelNames, mesh.sharedLabels, others...);
+  });
   if (regions.empty())
-    dropInnerEdges(mesh);
+    dropInnerSides(mesh);
   else
     keepRegions(mesh, regions);
   validate(mesh);
 }
 
-void takeGroups(TetrahedronMesh& mesh, const std::vector<std::string>& regions) {
-  joinGroups(mesh.tetrahedra, mesh.regions, mesh.regionNames, mesh.sharedRegions);
-  joinGroups(mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels,
-             mesh.boundaryNormals);
-  if (regions.empty())
-    dropInnerTriangles(mesh);
-  else
-    keepRegions(mesh, regions);
-  validate(mesh);
-}
-
-void chooseGroups(TriangleMesh& mesh, const std::set<int>& labels, const std::set<int>& regions) {
+template <class Mesh>
+void chooseGroups(Mesh& mesh, const std::set<int>& labels, const std::set<int>& regions) {
   const auto place = [&](const auto& item) { return placeOf(mesh, item); };
-  chooseGroups(mesh.name, "a side", mesh.boundaryEdges, mesh.boundaryLabels, mesh.labelNames,
-               mesh.sharedLabels, labels, place);
-  chooseGroups(mesh.name, "a triangle", mesh.triangles, mesh.regions, mesh.regionNames, mesh.sharedRegions,
-               regions, place);
+  choose(mesh.name, "side", labelledSides(mesh), mesh.boundaryLabels, mesh.labelNames, mesh.sharedLabels,
+         labels, place);
+  choose(mesh.name, elementWord<Mesh>, elementsOf(mesh), mesh.regions, mesh.regionNames, mesh.sharedRegions,
+         regions, place);
 }
 
-void chooseGroups(TetrahedronMesh& mesh, const std::set<int>& labels, const std::set<int>& regions) {
-  const auto place = [&](const auto& item) { return placeOf(mesh, item); };
-  chooseGroups(mesh.name, "a side", mesh.boundaryTriangles, mesh.boundaryLabels, mesh.labelNames,
-               mesh.sharedLabels, labels, place);
-  chooseGroups(mesh.name, "a tetrahedron", mesh.tetrahedra, mesh.regions, mesh.regionNames,
-               mesh.sharedRegions, regions, place);
-}
-
-void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
-  keepElements(mesh, mesh.triangles, regions);
-  const TriangleSides sides = sortedSides(mesh);
-  keepEdges(mesh, [&](const auto& edge) { return sidesOn(sides, edge[0], edge[1]).size() == 1; });
-  renumberVertices(mesh, mesh.triangles, mesh.boundaryEdges);
-}
-
-void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions) {
-  requireVertices(mesh);
-  keepElements(mesh, mesh.tetrahedra, regions);
-  const TriangleCount count(mesh);
-  keepTriangles(mesh, [&](const std::array<int, 3>& triangle) { return count(triangle) == 1; });
-  renumberVertices(mesh, mesh.tetrahedra, mesh.boundaryTriangles, mesh.geometry.triangles);
-}
-
-void dropInnerTriangles(TetrahedronMesh& mesh) {
-  const TriangleCount count(mesh);
-  keepTriangles(mesh, [&](const std::array<int, 3>& triangle) { return count(triangle) < 2; });
-}
-
-void dropInnerEdges(TriangleMesh& mesh) {
-  const TriangleSides sides = sortedSides(mesh);
-  keepEdges(mesh, [&](const auto& edge) { return sidesOn(sides, edge[0], edge[1]).size() < 2; });
-}
+template void keepRegions(TriangleMesh&, const std::vector<std::string>&);
+template void keepRegions(TetrahedronMesh&, const std::vector<std::string>&);
+template void dropInnerSides(TetrahedronMesh&);
+template void takeGroups(TriangleMesh&, const std::vector<std::string>&);
+template void takeGroups(TetrahedronMesh&, const std::vector<std::string>&);
+template void chooseGroups(TriangleMesh&, const std::set<int>&, const std::set<int>&);
+template void chooseGroups(TetrahedronMesh&, const std::set<int>&, const std::set<int>&);
 
 }  // namespace mortier

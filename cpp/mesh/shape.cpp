@@ -18,7 +18,8 @@ struct Circle {
   double radius = 1;  ///< negative where the body lies outside [m]
 };
 
-void putMiddlesOn(TriangleMesh& mesh, const std::vector<Circle>& circles) {
+/// The mesh with the middles of these edges on their circles.
+TriangleMesh onCircles(TriangleMesh mesh, const std::vector<Circle>& circles) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   mesh.edgeMiddles.assign(mesh.boundaryEdges.size(), Point(unknown, unknown));
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
@@ -28,32 +29,20 @@ void putMiddlesOn(TriangleMesh& mesh, const std::vector<Circle>& circles) {
       const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
       mesh.edgeMiddles[e] = circle.centre + circle.radius * Point(along.y(), -along.x());
     }
+  return mesh;
 }
-
-struct Maker {
-  Cut cut;
-  TriangleMesh operator()(const Rectangle& rectangle) const { return rectangleMesh(rectangle, cut); }
-  TriangleMesh operator()(const Quadrilateral& quadrilateral) const {
-    return quadrilateralMesh(quadrilateral, cut);
-  }
-  TriangleMesh operator()(const Outline& outline) const { return outlineMesh(outline); }
-  TriangleMesh operator()(const Annulus& annulus) const {
-    TriangleMesh mesh = annulusMesh(annulus, cut);
-    putMiddlesOn(mesh, {{1, annulus.centre, -annulus.inner}, {2, annulus.centre, annulus.outer}});
-    return mesh;
-  }
-  TriangleMesh operator()(const HalfDisc& disc) const {
-    TriangleMesh mesh = halfDiscMesh(disc, cut);
-    const Point centre = disc.lowest + Point(0, disc.radius);
-    putMiddlesOn(mesh, {{1, centre, disc.radius}, {3, centre, disc.radius}});
-    return mesh;
-  }
-};
 
 }  // namespace
 
 TriangleMesh shapeMesh(const MeshShape& shape) {
-  return std::visit(Maker{shape.cut}, shape.of);
+  if (const auto* of = std::get_if<Rectangle>(&shape.of)) return rectangleMesh(*of, shape.cut);
+  if (const auto* of = std::get_if<Quadrilateral>(&shape.of)) return quadrilateralMesh(*of, shape.cut);
+  if (const auto* of = std::get_if<Outline>(&shape.of)) return outlineMesh(*of);
+  if (const auto* of = std::get_if<Annulus>(&shape.of))
+    return onCircles(annulusMesh(*of, shape.cut), {{1, of->centre, -of->inner}, {2, of->centre, of->outer}});
+  const auto& disc = std::get<HalfDisc>(shape.of);
+  const Point centre = disc.lowest + Point(0, disc.radius);
+  return onCircles(halfDiscMesh(disc, shape.cut), {{1, centre, disc.radius}, {3, centre, disc.radius}});
 }
 
 namespace {

@@ -6,8 +6,10 @@
 #include <queue>
 #include <utility>
 
+#include "base/dense_templates.h"
 #include "base/formatted.h"
 #include "plan/estimate_doubts.h"
+#include "time/nodal_forces.h"
 
 namespace mortier {
 namespace {
@@ -155,9 +157,39 @@ double alternationOf(const ContactInterface& interface, const std::vector<Point>
   return most > 0 ? most / pressure.maxCoeff() : 0;
 }
 
+/// The moment of the contact forces that the motion of their places makes beside what it is where the places
+/// move alike, over that of friction: equilibrium is that of places as drawn [-].
+double momentOfMotion(const ContactInterface& interface, const Body& body, const State& state, size_t k) {
+  const auto cross = [](const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); };
+  Vector friction = Vector::Zero(body.dofs());
+  forEachEntry(interface.T1(),
+               [&](int row, int dof, double value) { friction[dof] += value * state.frictionForce[k][row]; });
+  Vector force = friction;
+  forEachEntry(interface.C1(),
+               [&](int row, int dof, double value) { force[dof] += value * state.contactForce[k][row]; });
+  const Vector& u = state.bodies[interface.pair().nonmortar.body].displacement;
+  const auto at = [](const Vector& of, int node) { return Point(of.segment<2>(Eigen::Index{2} * node)); };
+  double size = 0;
+  Point place(0, 0);
+  Point moved(0, 0);
+  for (int node = 0; node < body.nodes(); ++node) {
+    const double weight = at(force, node).norm();
+    size += weight;
+    place += weight * body.placeOfNode(node).head<2>();
+    moved += weight * at(u, node);
+  }
+  double moment = 0;
+  double ofFriction = 0;
+  for (int node = 0; node < body.nodes() && size > 0; ++node) {
+    moment += cross(at(u, node) - moved / size, at(force, node));
+    ofFriction += (body.placeOfNode(node).head<2>() - place / size).norm() * at(friction, node).norm();
+  }
+  return ofFriction > 0 ? std::abs(moment) / ofFriction : 0;
+}
+
 }  // namespace
 
-std::vector<std::string> contactDoubts(const Model& model, const State& state, double largestForce) {
+std::vector<ContactDoubt> contactDoubts(const Model& model, const State& state, double largestForce) {
   // Cells on the half width with which nodal pressures are right to 5 % up to 0.85 of it, of displacements as
   // of row functions, and of quadratic ones with hat functions. Off by less than 150 % over the cells.
   constexpr double enough[] = {8, 12};
@@ -168,47 +200,78 @@ std::vector<std::string> contactDoubts(const Model& model, const State& state, d
   constexpr double resolved = 2;     // so is the force to 20 %
   constexpr double overlaps = 1e-9;  // area of an overlap over the square of a length, or volume
   constexpr double exact = 1e-9;
-  std::vector<std::string> doubts;
+  constexpr double turned = 0.02;
+  std::vector<ContactDoubt> doubts;
+  using Unknown = ContactDoubt::Unknown;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const auto& [nonmortar, mortar, coupling] = interface.pair();
     const std::string name =
         formatted("contact of label %d of body ", nonmortar.label) + model.bodies[nonmortar.body].name();
+    const auto doubt = [&](Unknown unknown, const std::string& text) {
+      doubts.push_back({k, unknown, name + text});
+    };
     const Vector& p = state.contactForce[k];
     if (const double off = interface.patchError(); off > exact)
-      doubts.push_back(name + formatted(": variant = \"interpolation\" makes nodal forces of a uniform "
+      doubt(Unknown::nothing, formatted(": variant = \"interpolation\" makes nodal forces of a uniform "
                                         "pressure that are off by up to %.2g %% on the mortar side",
                                         100 * off));
     if (!p.isZero(0) && p.sum() <= rounding * largestForce) continue;
     const Body& body = model.bodies[nonmortar.body];
+    if (interface.follows() && interface.hasFriction())
+      if (const double off = momentOfMotion(interface, body, state, k); off > turned)
+        doubt(Unknown::nothing, formatted(": forces act where the bodies have moved to, and they are in "
+                                          "equilibrium as drawn; the moment of friction is off by %.2g %%",
+                                          100 * off));
     const std::optional<RowGraph> surface =
         body.dimension() == 3 ? std::optional<RowGraph>(std::in_place, interface, body) : std::nullopt;
     const double cells = surface ? surface->cells(p) : cellsOfContact(interface, p);
     if (cells < resolved)
-      doubts.push_back(name + ": too few cells for its width, pressures and the force are not resolved");
+      doubt(Unknown::force, ": too few cells for its width, pressures and the force are not resolved");
     else if (cells < enough[rowDegree(coupling, body.degree()) < body.degree()])
-      doubts.push_back(name +
-                       formatted(": %.2g cells on the half width, nodal pressures near its ends to %.0f %%",
-                                 cells, std::ceil(150 / cells)));
+      doubt(Unknown::nothing,
+            formatted(": %.2g cells on the half width, nodal pressures near its ends to %.0f %%", cells,
+                      std::ceil(150 / cells)));
     if (const double by = interface.pressureRoughness(p);
         by > (interface.stabilised() ? rough : roughOfOthers))
-      doubts.push_back(name + formatted(": not resolved by the coarser side, in an element of which nodal "
+      doubt(Unknown::nothing, formatted(": not resolved by the coarser side, in an element of which nodal "
                                         "pressures change by %.0f %% of the largest",
                                         100 * by));
     else if (const double to = surface ? surface->alternation(p, interface.contactPressure(p))
                                        : alternationOf(interface, body.elementNodes().places, p);
              to > rough)
-      doubts.push_back(
-          name + formatted(": not resolved, nodal pressures alternate by %.0f %% of the largest", 100 * to));
+      doubt(Unknown::pressures,
+            formatted(": not resolved, nodal pressures alternate by %.0f %% of the largest", 100 * to));
     if (!p.isZero(0)) continue;
     const double area = interface.interpenetration(state.bodies[nonmortar.body].displacement,
                                                    state.bodies[mortar.body].displacement, state.time);
     const double cell = std::pow(interface.lengths().maxCoeff(), 1.0 / (interface.dimension() - 1));
     if (area > overlaps * std::pow(cell, interface.dimension()))
-      doubts.push_back(name +
-                       ": the sides overlap between their nodes without a force, finer cells resolve it");
+      doubt(Unknown::force,
+            ": the sides overlap between their nodes without a force, finer cells resolve it");
   }
   return doubts;
+}
+
+bool leavesUnknown(const ContactDoubt& doubt, const Quantity& quantity, bool ofPart, const Model& model) {
+  using Kind = Quantity::Kind;
+  using Unknown = ContactDoubt::Unknown;
+  const ContactInterface& interface = model.interfaces[doubt.interface];
+  const auto& [nonmortar, mortar, coupling] = interface.pair();
+  if (quantity.kind == Kind::largestMises)
+    return doubt.unknown == Unknown::force &&
+           (quantity.body == nonmortar.body || quantity.body == mortar.body);
+  if (!isSide(interface, quantity.body, quantity.label)) return false;
+  switch (quantity.kind) {
+    case Kind::largestPressure:
+      return doubt.unknown != Unknown::nothing;
+    case Kind::meanPressure:
+      return doubt.unknown == Unknown::force || (ofPart && doubt.unknown == Unknown::pressures);
+    case Kind::contactForce:
+      return doubt.unknown == Unknown::force;
+    default:
+      return false;
+  }
 }
 
 }  // namespace mortier

@@ -38,8 +38,8 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
   std::vector<std::string> doubts;
   for (const int b : found)
     doubts.push_back("body " + model.bodies[b].name() +
-                     " may flow and is more than 100 times stiffer than one that it touches; of its error it "
-                     "finds 0.4 to 0.8");
+                     " may flow and is more than 100 times stiffer than one that it touches: the estimate is "
+                     "0.4 to 0.8 of its error");
   return doubts;
 }
 

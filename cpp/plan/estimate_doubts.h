@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "time/quantity.h"
 
 namespace mortier {
 
@@ -18,10 +19,20 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
 /// infinite there, so its error does not fall.
 std::vector<std::string> pointForceDoubts(const Model& model, const State& state);
 
-/// Contacts whose pressures the meshes do not resolve in a state, a line each: those that end within a side
-/// after a few cells, and sides that overlap between their nodes without a force.
+struct ContactDoubt {
+  enum class Unknown { nothing, pressures, force };
+  size_t interface = 0;
+  Unknown unknown = Unknown::nothing;  ///< what has no digit; of a force its pressures neither
+  std::string text;
+};
+
+/// Contacts whose pressures the meshes do not resolve in a state: those that end within a side after a few
+/// cells, and sides that overlap between their nodes without a force.
 /// \param largestForce  the largest contact force of the run; forces below its rounding are ignored [N/m]
-std::vector<std::string> contactDoubts(const Model& model, const State& state, double largestForce);
+std::vector<ContactDoubt> contactDoubts(const Model& model, const State& state, double largestForce);
+
+/// Whether a contact of which there is a doubt does not have a value. \param ofPart  of a part of a side
+bool leavesUnknown(const ContactDoubt& doubt, const Quantity& quantity, bool ofPart, const Model& model);
 
 /// Whether every nonmortar node lies on a mortar node, and the mortar nodes between them on nonmortar ones.
 bool meshesMatch(const ContactInterface& interface);

@@ -149,10 +149,9 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
 
 std::vector<double> trialTimes(const TimePlan& plan) {
   constexpr int count = 64;
-  constexpr double uneven = 0.3819660112501051;
   std::vector<double> times{0};
   for (int i = 0; i < count; ++i) {
-    times.push_back(plan.end * (i + uneven) / count);
+    times.push_back(plan.end * (i + unevenPart) / count);
     times.push_back(plan.end * (i + 1) / count);
   }
   return times;

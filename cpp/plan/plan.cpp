@@ -41,7 +41,7 @@ class Planner {
       add("scene", false, "what data do between nodes and steps", "it is looked at in the plane only");
     }
     if (scene_.plane == Plane::strain)
-      add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
+      add("scene", true, "plane strain", "plane = \"strain\": e33 = 0, s33 is computed");
     if (scene_.plane == Plane::axisymmetric)
       add("scene", true, "bodies of revolution, forces and energies of whole rings",
           "plane = \"axisymmetric\": x is the distance from the axis, s33 the stress around it");
@@ -71,11 +71,12 @@ class Planner {
     }
     planPoints(b);
     const std::string& choice = scene_.bodies[b].volumeChoice;
+    const std::string averaged = std::string("volumetric strain averaged over patches of ") +
+                                 (scene_.inSpace() ? "tetrahedra" : "triangles");
     if (body.patches() != nullptr)
-      add(part, true, "volumetric strain averaged over patches of triangles",
-          choice.empty() ? "volume = \"averaged\"" : choice);
+      add(part, true, averaged, choice.empty() ? "volume = \"averaged\"" : choice);
     else if (!choice.empty())
-      add(part, false, "volumetric strain averaged over patches of triangles", choice);
+      add(part, false, averaged, choice);
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {
@@ -114,7 +115,7 @@ class Planner {
       add(part, true, "flow", always + " flows at any stress");
       return;
     }
-    add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
+    add(part, false, "a new factor in elastic steps", "they reuse the elastic factorisation");
     const std::string loads = "loads of the order of " + digits(largest_) + " " + scene_.units.stress +
                               ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;
     if (scene_.inSpace())
@@ -140,7 +141,7 @@ class Planner {
 
   void planContact() {
     if (model_.interfaces.empty()) {
-      add("contact", false, "contact: nothing is condensed, every body is solved by itself",
+      add("contact", false, "contact: bodies are solved separately",
           model_.bodies.size() == 1 ? "there is one body" : "the scene has none");
       return;
     }
@@ -158,8 +159,6 @@ class Planner {
             friction.coefficient > 0 ? "friction = " + shortest(friction.coefficient)
                                      : "shear_limit = " + shortest(friction.limit));
     }
-    add("contact", false, "a bilateral tie where nothing opens",
-        "it would save no time: contact that keeps its active set costs what a tie would, docs/check.md");
   }
 
   void planMemory() {

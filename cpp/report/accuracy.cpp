@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/ranks.h"
+#include "base/formatted.h"
 
 namespace mortier {
 namespace {
@@ -30,14 +30,58 @@ void AccuracyRecord::add(const StepReport& report, bool kept) {
   memory_.time = report.time;
 }
 
-Accuracy AccuracyRecord::atEnd(const Peaks& peaks, std::vector<QuantityError> quantities) {
+namespace {
+
+/// The largest value of the run that is of the kind of a quantity; none where none is known. Moments are
+/// those of the largest force about an end of the body.
+double largestLike(const Quantity& quantity, const Model& model, const Peaks& peaks) {
+  using Kind = Quantity::Kind;
+  switch (quantity.kind) {
+    case Kind::displacement:
+      return peaks.displacement.value;
+    case Kind::storedEnergy:
+      return peaks.energy.value;
+    case Kind::largestMises:
+      return peaks.vonMises.value;
+    case Kind::largestPressure:
+    case Kind::meanPressure:
+      return peaks.pressure.value;
+    case Kind::reaction:
+    case Kind::contactForce:
+      return peaks.contactForce.value *
+             (isMoment(quantity.component) ? model.bodies[quantity.body].extent() : 1);
+    default:
+      return 0;
+  }
+}
+
+/// An estimate is a product of two that are small: it is none where the stress itself is not known, and where
+/// it is far above all values of its kind.
+void dropUnknown(double relative, const Model& model, const Peaks& peaks,
+                 const std::vector<Quantity>& quantities, const std::vector<double>& values,
+                 std::vector<QuantityError>& errors) {
+  constexpr double most = 10;
+  for (size_t i = 0; i < errors.size() && i < values.size(); ++i) {
+    const double largest = std::max(std::abs(values[i]), largestLike(quantities[i], model, peaks));
+    if (relative > 1)
+      withdraw(errors[i], values[i],
+               formatted("the estimated error of the stress is %.0f %%", 100 * relative));
+    else if (largest > 0 && errors[i].size > most * largest)
+      withdraw(errors[i], values[i], "its estimate is more than ten times all values of its kind");
+  }
+}
+
+}  // namespace
+
+Accuracy AccuracyRecord::atEnd(const Peaks& peaks, std::vector<QuantityError> quantities,
+                               const std::vector<Quantity>& of, const std::vector<double>& values) {
   const double largestEnergy = 2 * peaks.energy.value;
   Accuracy result;
   double error = 0;
   double energy = 0;
   double largest = 0;
   double allRounding = negligible * largestEnergy;
-  const CurrentSpaceError::Estimates estimates = error_.estimates();
+  const CurrentMeshError::Estimates estimates = error_.estimates();
   for (const ErrorEstimate& estimate : *estimates) energy += estimate.energy;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const ErrorEstimate& estimate = (*estimates)[b];
@@ -66,6 +110,7 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks, std::vector<QuantityError> qu
   result.quantities = std::move(quantities);
   if (result.all == 0)
     for (QuantityError& each : result.quantities) each.size = 0;
+  dropUnknown(result.all, model_, peaks, of, values, result.quantities);
   result.largest = largestEnergy > 0 && most > allRounding ? std::sqrt(most / largestEnergy) : 0;
   return result;
 }
@@ -92,14 +137,15 @@ std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity
 }
 
 QuantityError errorOf(const RunFacts& facts, const Accuracy& accuracy, size_t quantity) {
-  if (accuracy.quantities.empty())
-    return {0, Ranks::all().shared() ? "bodies are shared by processes" : "the run is not complete", 0};
+  if (accuracy.quantities.empty()) return {0, "the run is not complete", 0};
   QuantityError error = accuracy.quantities[quantity];
-  if (facts.rounds.empty() || error.order > 0) return error;
+  const Quantity& of = facts.quantities[quantity];
+  const bool summed = needsWork(of) || of.kind == Quantity::Kind::frictionWork;  // known by rounds alone
+  if (facts.rounds.empty() || (!error.obstacle.empty() && !summed)) return error;
   const std::optional<RoundChange> change = changeInRounds(facts, quantity);
   if (!change) return {0, "there is one round only", 0};
   if (change->grows) return {0, "it grows with every round: stresses are unbounded there", 0};
-  return {change->size, "", 0};
+  return {std::max(change->size, error.size), "", 0};
 }
 
 }  // namespace mortier

@@ -1,4 +1,4 @@
-// How accurate the stresses of a run are, by their own estimate (time/space_error.h).
+// How accurate the stresses of a run are, by their own estimate (time/mesh_error.h).
 #pragma once
 
 #include <map>
@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "bound/energy_bound.h"
-#include "bound/flow_bound.h"
-#include "bound/total_bound.h"
 #include "report/manifest.h"
 #include "solver/model.h"
 #include "time/march.h"
+#include "time/mesh_error.h"
 #include "time/quantity.h"
 #include "time/quantity_error.h"
-#include "time/space_error.h"
 
 namespace mortier {
 
@@ -65,6 +63,7 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  int processes = 0;  ///< that factorise the bodies together; 0: none but this one
   SolverOptions solver;
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   std::string aim;                   ///< the quantity of which it is asked for; empty: the stress
@@ -89,9 +88,6 @@ struct Accuracy {
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]
   std::optional<EnergyBound> bound = {};       ///< of the last state, where it is asked for
-  std::optional<FlowBound> flow = {};          ///< of the steps up to it, where bodies flow
-  std::optional<TotalBound> total = {};        ///< of steps and meshes together, where bodies flow
-  std::optional<EnergyBound> step = {};        ///< of the meshes in the last step, where bodies flow
   std::vector<QuantityError> quantities = {};  ///< of the meshes; empty where the run is not complete
 };
 
@@ -126,8 +122,6 @@ struct AccuracyMemory {
   double energy = 0;  ///< elastic energy when it was estimated last [J/m]
   double error = 0;   ///< largest integral of e : E^-1 e [J/m]
   double time = 0;    ///< and when [s]
-  FlowBoundMemory flow;
-  TotalBoundMemory total;
 };
 
 /// Estimates the last state, those that are kept, and on the way those at which the elastic energy has
@@ -136,17 +130,19 @@ class AccuracyRecord {
  public:
   /// \param memory  of an earlier part of the run; kept up to date.
   /// \param error  of the states of the run
-  AccuracyRecord(const Model& model, CurrentSpaceError& error, AccuracyMemory& memory)
+  AccuracyRecord(const Model& model, CurrentMeshError& error, AccuracyMemory& memory)
       : model_(model), error_(error), memory_(memory) {}
   /// Whether add() needs the state.
   [[nodiscard]] bool needs(const StepReport& report, bool kept) const;
   void add(const StepReport& report, bool kept);
   /// \param quantities  their errors; 0 where the error of the stress is at the level of rounding
-  Accuracy atEnd(const Peaks& peaks, std::vector<QuantityError> quantities = {});
+  /// \param of, values  the quantities
+  Accuracy atEnd(const Peaks& peaks, std::vector<QuantityError> quantities = {},
+                 const std::vector<Quantity>& of = {}, const std::vector<double>& values = {});
 
  private:
   const Model& model_;
-  CurrentSpaceError& error_;
+  CurrentMeshError& error_;
   AccuracyMemory& memory_;
 };
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h) and what a scene means; it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 16\n";
+constexpr std::string_view magic = "mortier checkpoint 17\n";
 
 uint64_t sumOf(std::string_view bytes) {
   Checksum sum;
@@ -35,18 +35,27 @@ uint64_t hashOfLists(const Lists&... lists) {
   return sum.value;
 }
 
+/// What a checkpoint begins with: the rest is not read where this says that it is of another size.
+constexpr size_t headSize = magic.size() + sizeof(uint64_t);
+
 Checkpoint decode(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(fs::file_size(path), '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw InputError("cannot be read");
+  const uint64_t size = fs::file_size(path);
   uint64_t sum = 0;
-  if (bytes.size() < magic.size() + sizeof sum) throw InputError("too short");
+  uint64_t stored = 0;
+  if (size < headSize + sizeof sum) throw InputError("too short");
+  std::string bytes(headSize, '\0');
+  if (!file.read(bytes.data(), headSize)) throw InputError("cannot be read");
   if (bytes.compare(0, magic.size(), magic) != 0) throw InputError("not of this version of mortier");
+  std::memcpy(&stored, bytes.data() + magic.size(), sizeof stored);
+  if (stored != size) throw InputError("damaged");
+  bytes.resize(size);
+  if (!file.read(bytes.data() + headSize, static_cast<std::streamsize>(size - headSize)))
+    throw InputError("cannot be read");
   const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
   std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
   if (sum != sumOf(content)) throw InputError("damaged");
-  ArchiveReader reader(content.substr(magic.size()));
+  ArchiveReader reader(content.substr(headSize));
   Checkpoint checkpoint;
   reader(checkpoint);
   if (!reader.bytes.empty()) throw InputError("damaged");
@@ -86,8 +95,10 @@ uint64_t hashOf(const TriangleMesh& mesh) {
 void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint) {
   static_assert(std::endian::native == std::endian::little);
   ArchiveWriter writer;
-  writer.bytes = magic;
+  writer.bytes = std::string(magic).append(headSize - magic.size(), '\0');
   writer(const_cast<Checkpoint&>(checkpoint));  // one list of members serves reading and writing
+  const uint64_t size = writer.bytes.size() + sizeof(uint64_t);
+  std::memcpy(writer.bytes.data() + magic.size(), &size, sizeof size);
   const uint64_t sum = sumOf(writer.bytes);
   writer.bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   const std::string path = folder + "/" + checkpointName;

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "bound/matched_meshes.h"
 #include "report/checkpoint_members.h"
 
 namespace mortier {
@@ -53,27 +52,6 @@ bool isTime(double time) {
   return std::isfinite(time) && time >= 0;
 }
 
-bool isCourse(const ErrorCourse& course) {
-  const auto areSums = [](const std::vector<double>& all) {
-    return std::all_of(all.begin(), all.end(), [](double each) { return each >= 0; });
-  };
-  return course.growth >= 0 && course.misfit >= 0 && course.drift >= 0 && !course.lengths.empty() &&
-         course.lengths.size() == course.sums.size() && areSums(course.lengths) && areSums(course.sums);
-}
-
-/// Stresses by the triangles of the matched meshes; none where nothing is bounded.
-bool fitsBodies(const std::vector<Matrix>& stress, const Model& model) {
-  if (stress.empty()) return true;
-  const MatchedMeshes meshes = matchedMeshes(model);
-  if (stress.size() != model.bodies.size() || !meshes.obstacle.empty()) return false;
-  for (size_t b = 0; b < stress.size(); ++b)
-    if (stress[b].rows() != model.bodies[b].material().components() ||
-        stress[b].cols() != static_cast<Eigen::Index>(meshes.bodies[b].parents.size()) ||
-        !stress[b].allFinite())
-      return false;
-  return true;
-}
-
 bool isStatus(Status status) {
   return status == Status::converged || status == Status::failed || status == Status::unheld;
 }
@@ -121,13 +99,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                 (error.strain.empty() || isLike(error.strain, stresses)),
             "error in time");
   require(isTime(memory.controller.pairEnd), "step length");
-  require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&
-              isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
-              accuracy.flow.growth >= 0,
-          "accuracy");
-  require(isCourse(accuracy.total.fixed) && isCourse(accuracy.total.any) &&
-              fitsBodies(accuracy.total.stress, model),
-          "bound");
+  require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time), "accuracy");
   require(memory.run.quantities.size() == quantities &&
               (last.quantities.empty() || last.quantities.size() == quantities),
           "number of quantities");

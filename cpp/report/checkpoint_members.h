@@ -23,7 +23,7 @@ MORTIER_MEMBERS(SpecialConditions, idle, dependent)
 MORTIER_MEMBERS(ListedSolution, index, residual, contact, friction, sets)
 MORTIER_MEMBERS(StepSolutions, ambiguous, listed)
 MORTIER_MEMBERS(SeveralSolutions, step, time, listed)
-MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
+MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, method, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
                 resultantX, resultantY, resultantZ, vonMises, displacement, motion, energy,
                 viscoplasticFraction, certificate, quantities, frictionWork, solutions)
@@ -32,12 +32,7 @@ MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTi
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding, strain,
                 rotation)
 MORTIER_MEMBERS(BodyOverlap, area, depth, place, drawn, time, bodies, labels, explained, shallow, words)
-MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
-                motionOff)
-MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)
-MORTIER_MEMBERS(EarlierContact, gaps, pressures)
-MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, fixed, any, contact, stress, earlier)
-MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow, total)
+MORTIER_MEMBERS(AccuracyMemory, energy, error, time)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, frictionWorkOf,

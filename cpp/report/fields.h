@@ -19,7 +19,7 @@
 
 #include "report/manifest.h"
 #include "time/march.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier {
 
@@ -44,7 +44,7 @@ class Fields {
  public:
   /// \param error  of the states that are added
   /// \param kept  what an earlier part of the run has written.
-  Fields(std::string folder, const Model& model, CurrentSpaceError& error, std::vector<KeptFields> kept = {})
+  Fields(std::string folder, const Model& model, CurrentMeshError& error, std::vector<KeptFields> kept = {})
       : folder_(std::move(folder)),
         model_(model),
         error_(error),
@@ -67,7 +67,7 @@ class Fields {
 
   std::string folder_;
   const Model& model_;
-  CurrentSpaceError& error_;
+  CurrentMeshError& error_;
   std::vector<KeptFields> kept_;
   size_t synced_;
   std::future<void> writing_;

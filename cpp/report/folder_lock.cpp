@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -21,6 +23,7 @@ namespace mortier {
 namespace {
 
 constexpr std::string_view mark = "mortier run in ";
+constexpr std::string_view inPlaceOf = "\nin place of ";
 
 [[noreturn]] void fail(const std::string& path, const char* what, int reason) {
   throw OutputError(path + ": cannot be " + what + ": " + std::strerror(reason));
@@ -38,14 +41,27 @@ bool isStill(int file, const std::string& path) {
   return one.st_ino == other.st_ino && one.st_dev == other.st_dev;
 }
 
-/// The name in a lock; empty where it is not one of ours.
-std::string nameIn(int file, const std::string& path) {
-  std::array<char, 4096> text{};
-  const ssize_t size = pread(file, text.data(), text.size(), 0);
+struct LockText {
+  std::string name;  ///< empty where the lock is not one of ours
+  std::optional<ino_t> replaced;
+};
+
+LockText textIn(int file, const std::string& path) {
+  std::array<char, 4096> bytes{};
+  const ssize_t size = pread(file, bytes.data(), bytes.size(), 0);
   if (size < 0) fail(path, "read", errno);
-  const std::string_view line(text.data(), size > 0 ? static_cast<size_t>(size) : 0);
-  if (line.substr(0, mark.size()) != mark || line.back() != '\n') return "";
-  return std::string(line.substr(mark.size(), line.size() - mark.size() - 1));
+  const std::string_view text(bytes.data(), size > 0 ? static_cast<size_t>(size) : 0);
+  if (text.substr(0, mark.size()) != mark || text.find('\n') == std::string_view::npos) return {};
+  LockText result;
+  const size_t end = std::min(text.find(inPlaceOf), text.back() == '\n' ? text.size() - 1 : text.size());
+  result.name = text.substr(mark.size(), end - mark.size());
+  if (const size_t at = text.rfind(inPlaceOf); at != std::string_view::npos) {
+    ino_t number = 0;
+    const char* last = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + at + inPlaceOf.size(), last, number);
+    if (error == std::errc() && rest + 1 == last && *rest == '\n') result.replaced = number;
+  }
+  return result;
 }
 
 }  // namespace
@@ -61,6 +77,12 @@ bool makerLives(const std::string& name) {
   return pid > 0 && pid != getpid() && (kill(pid, 0) == 0 || errno == EPERM);
 }
 
+ino_t numberOf(const std::string& folder) {
+  struct stat facts {};
+  if (lstat(folder.c_str(), &facts) != 0) fail(folder, "read", errno);
+  return facts.st_ino;
+}
+
 FolderLock::FolderLock(const std::string& folder) {
   const std::string path = folder + "/" + lockName;
   struct stat facts {};
@@ -73,7 +95,9 @@ FolderLock::FolderLock(const std::string& folder) {
   if (!file_.isOpen() && (errno == ENOENT || (errno == EACCES && facts.st_uid != geteuid())))
     return;  // gone in between, or of another user
   if (!file_.isOpen()) fail(path, "read", errno);
-  name_ = nameIn(file_.number(), path);
+  const LockText text = textIn(file_.number(), path);
+  name_ = text.name;
+  replaced_ = text.replaced;
   if (name_.empty()) return;
   const bool locked = flock(file_.number(), LOCK_EX | LOCK_NB) == 0;
   // On a file system without locks the number of the process must do.
@@ -91,6 +115,14 @@ FolderLock::FolderLock(const std::string& folder, const std::string& name) : nam
   if (written < 0) fail(path, "written", errno);
   flock(file_.number(), LOCK_EX | LOCK_NB);  // nothing else has opened it
   state_ = State::held;
+}
+
+void addReplaced(const std::string& folder, const std::string& replaced) {
+  const std::string path = folder + "/" + lockName;
+  const OpenFile file(open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC));
+  const std::string line = std::string(inPlaceOf.substr(1)) + std::to_string(numberOf(replaced)) + "\n";
+  if (!file.isOpen() || write(file.number(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    fail(path, "written", errno);
 }
 
 PlaceLock::PlaceLock(const std::string& folder)

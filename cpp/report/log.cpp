@@ -60,7 +60,8 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     text += materials(body, facts.units);
     if (body.patches() != nullptr)
       text += "material   " + body.name() + " volumetric strain averaged over " +
-              std::to_string(body.patches()->count()) + " patches of triangles\n";
+              std::to_string(body.patches()->count()) + " patches of " +
+              (body.space() != nullptr ? "tetrahedra\n" : "triangles\n");
   }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
@@ -110,7 +111,7 @@ std::string line(const std::string& text) {
 std::string logBound(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return line("no guaranteed bound: " + bound.obstacle);
   const double relative = bound.relative();
-  if (!std::isfinite(relative)) return line("guaranteed: nothing below 100 %, the meshes are too coarse");
+  if (!std::isfinite(relative)) return line("guaranteed: bound above 100 %, refine the meshes");
   constexpr double rounding = 1e-12;
   if (bound.bound <= rounding * bound.norm) return line("guaranteed: below rounding");
   std::string text = formatted("guaranteed: at most %.2g %%", 100 * relative);
@@ -119,60 +120,7 @@ std::string logBound(const EnergyBound& bound) {
   return line(text);
 }
 
-std::string logFlow(const FlowBound& bound) {
-  const std::string none = "no guaranteed bound in time: ";
-  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
-  const bool any = !bound.moved.empty();
-  if (any && !std::isfinite(bound.factor)) return line(none + bound.moved);
-  const auto strain = overExact((any ? bound.factor : 1) * bound.strain, bound.strainNorm);
-  if (!strain) return line(none + "nothing below 100 %, steps are too long");
-  return line(formatted("guaranteed in time: viscoplastic strain to %.2g %%", 100 * *strain) +
-              (!any && !(bound.factor <= 1) ? ", contact closed and open as in the run" : ""));
-}
-
-std::string logTotal(const TotalBound& bound) {
-  const std::string none = "no guaranteed bound of steps and meshes: ";
-  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
-  const bool any = !bound.moved.empty();
-  const auto strain = overExact((any ? bound.any : bound.fixed).strain, bound.strainNorm);
-  if (!strain) return line(none + "nothing below 100 %");
-  std::string text =
-      formatted("guaranteed of steps and meshes: viscoplastic strain to %.2g %%", 100 * *strain);
-  if (!any && !(bound.closes.empty() && bound.any.strain <= bound.fixed.strain)) {
-    text += ", contact closed and open as in the run";
-    const auto whatever = overExact(bound.any.strain, bound.strainNorm);
-    if (bound.closes.empty() && whatever)
-      text += formatted("; to %.2g %% whatever contact does", 100 * *whatever);
-  }
-  return line(text);
-}
-
-std::string logStep(const EnergyBound& bound) {
-  const std::string none = "no guaranteed bound of the last step: ";
-  if (!bound.obstacle.empty()) return line(none + bound.obstacle);
-  std::string parts;
-  const auto add = [&](const char* what, double error, double norm) {
-    if (!(2 * error < norm)) return;  // not below 100 % of the exact one
-    parts += (parts.empty() ? "" : ", ") + std::string(what) +
-             formatted(" to %.2g %%", 100 * error / (norm - error));
-  };
-  add("viscoplastic strain", bound.strain, bound.strainNorm);
-  add("stress", bound.bound, bound.norm);
-  return line(parts.empty() ? none + "nothing below 100 %, the meshes are too coarse"
-                            : "guaranteed in the last step: " + parts);
-}
-
-std::string logBounds(const Accuracy& accuracy) {
-  std::string text;
-  if (accuracy.bound) text += logBound(*accuracy.bound);
-  if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
-  if (accuracy.bound && accuracy.total) text += logTotal(*accuracy.total);
-  if (accuracy.step) text += logStep(*accuracy.step);
-  return text;
-}
-
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
-  constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
   if (accuracy.all == 0) {
     text += "below rounding\n";
@@ -184,26 +132,33 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
     text += "), largest in " + accuracy.worstBody + " at " +
             placeText(accuracy.worst, model.bodies.front().dimension()) + "\n";
   }
+  constexpr double ofGeometries = 1e-7;  // their own tolerance, of the size
   double sagitta = 0;
+  double size = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
-  if (sagitta > 0)
+  for (const Body& body : model.bodies)
+    size = std::max(size, body.space() != nullptr ? extent(body.space()->mesh()) : extent(body.mesh()));
+  if (sagitta > ofGeometries * size)
     text +=
         formatted("           not in it: contact between polygons that are off their curves by up to %.2g ",
                   sagitta) +
-        facts.units.length + "\n";
+        facts.units.length + formatted(", %.2g of the size\n", sagitta / size);
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
     text += formatted("           largest of the run: %.2g %% of its largest stress, at t = %.5g %s\n",
                       100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
-  text += logBounds(accuracy);
+  if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
-  if (std::max(accuracy.all, accuracy.largest) > coarse)
+  constexpr double coarse = 0.3;
+  if (const double most = std::max(accuracy.all, accuracy.largest); most > 1)
+    text += "           not reliable: above 100 %, the meshes do not resolve the stress\n";
+  else if (most > coarse)
     text +=
         "           not reliable: above 30 %, mesh too coarse: the estimate is 0.8 to 2 times the error\n";
   return text;
 }
 
-std::string logPeaks(const RunReport& report, const StepReport& last, const Units& units, bool contact) {
+std::string logPeaks(const RunReport& report, const StepReport& last, const Units& units) {
   const Peaks& peaks = report.peaks;
   std::string text;
   const auto add = [&](const char* name, const Peak& peak, double end, const std::string& unit) {
@@ -217,35 +172,7 @@ std::string logPeaks(const RunReport& report, const StepReport& last, const Unit
   add("pressure", peaks.pressure, last.maxPressure, units.stress);
   add("contact force", peaks.contactForce, last.contactForce, units.forcePerDepth());
   add("displacement", peaks.displacement, last.displacement, units.length);
-  if (!text.empty()) text += "\n";
-  constexpr double noticeable = 0.5;
-  if (peaks.sliding.value > noticeable)
-    text += formatted(
-        "warning    bodies slide along each other by up to %.3g edges at t = %.5g %s; slips are taken as "
-        "small "
-        "here\n",
-        peaks.sliding.value, peaks.sliding.time, units.time.c_str());
-  text += logDeformation(peaks, units);
-  if (peaks.motion.value > 1 && peaks.strain.value == 0)
-    text += formatted(
-        "warning    displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as "
-        "small "
-        "here\n",
-        peaks.motion.value, peaks.motion.time, units.time.c_str());
-  if (contact && peaks.contactForce.value == 0 && report.overlap.depth == 0)
-    text +=
-        "warning    the bodies never touched: no contact pressed at any step (a motion too small to close "
-        "the distance, the wrong direction, or meshes too coarse to see it)\n";
-  return text;
-}
-
-/// Contact that no row has found, and overlaps beside contact that never pressed.
-std::string logOverlap(const RunReport& report, int dimension) {
-  const BodyOverlap& overlap = report.overlap;
-  if (overlap.shallow) return "warning    " + overlap.words + ": the meshes do not resolve it\n";
-  if (!(overlap.depth > 0) || !overlap.explained || report.peaks.contactForce.value > 0) return "";
-  return "warning    no contact presses, and " + overlap.text(dimension) +
-         " as drawn, or as a distance that is given or small sliding lets them\n";
+  return text.empty() ? text : text + "\n";
 }
 
 /// What is known of the error of a quantity.
@@ -330,8 +257,7 @@ std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solv
   const RunReport& report = solved.report;
   return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
          logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
-         logOverlap(report, model.bodies.front().dimension()) +
-         logPeaks(report, solved.last, facts.units, !model.interfaces.empty()) +
+         logPeaks(report, solved.last, facts.units) + asLines(warningsOf(report, model, facts.units)) +
          logQuantities(facts, model, solved) + logRanges(facts, report.quantities);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/formatted.h"
 #include "base/types.h"
@@ -19,7 +20,12 @@ std::string logRound(const std::vector<RoundFacts>& rounds);
 /// One step.
 std::string logRow(const StepReport& report);
 /// Strains and rotations that are not small, and that were small before.
-std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before = {});
+std::vector<std::string> deformationWarnings(const Peaks& peaks, const Units& units,
+                                             const Peaks& before = {});
+/// Of a run that has ended: those, and what contact and motions have done that the model does not have.
+std::vector<std::string> warningsOf(const RunReport& report, const Model& model, const Units& units);
+/// As lines of the log.
+std::string asLines(const std::vector<std::string>& warnings);
 /// That a run with steps chosen by their error is begun again.
 std::string logTrial(double error, double tolerance);
 /// How the run ended, where its result is, how well it holds (equations, estimates, bounds), the largest
@@ -65,7 +71,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
 
 // Guaranteed bounds in it. \tparam Json  nlohmann's, which only sources include
 template <class Json>
-Json jsonOfBounds(const Accuracy& accuracy);
+Json jsonOfBound(const EnergyBound& bound);
 /// Of the error of a quantity.
 template <class Json>
 Json jsonOfBound(const EnergyBound& bound, size_t quantity, double value);

@@ -32,7 +32,7 @@ std::string logRound(const std::vector<RoundFacts>& rounds) {
 }
 
 std::string logRow(const StepReport& r) {
-  std::string remarks = r.rung == Rung::newton ? "" : std::string("  ") + nameOf(r.rung);
+  std::string remarks = r.method == SolutionMethod::newton ? "" : std::string("  ") + nameOf(r.method);
   if (r.guarded) remarks += "  guarded";
   if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
   if (const size_t found = r.solutions.listed.size(); found > 1)
@@ -46,25 +46,59 @@ std::string logRow(const StepReport& r) {
                    r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
 }
 
-std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before) {
-  std::string text;
+std::vector<std::string> deformationWarnings(const Peaks& peaks, const Units& units, const Peaks& before) {
+  std::vector<std::string> warnings;
   const auto passes = [](const Peak& peak, const Peak& earlier, double most) {
     return peak.value > most && !(earlier.value > most);
   };
   if (passes(peaks.strain, before.strain, smallStrain))
-    text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
-                      100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
+    warnings.push_back(formatted("strains reach %.2g %% at t = %.5g %s; they are taken as small here",
+                                 100 * peaks.strain.value, peaks.strain.time, units.time.c_str()));
   if (passes(peaks.rotation, before.rotation, smallRotation))
-    text += formatted(
-        "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
-        peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());
+    warnings.push_back(
+        formatted("bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here",
+                  peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str()));
+  return warnings;
+}
+
+std::vector<std::string> warningsOf(const RunReport& report, const Model& model, const Units& units) {
+  constexpr double noticeable = 0.5;
+  const Peaks& peaks = report.peaks;
+  const BodyOverlap& overlap = report.overlap;
+  const bool touched = peaks.contactForce.value > 0;
+  std::vector<std::string> warnings;
+  if (overlap.shallow)
+    warnings.push_back(overlap.words + ": the meshes do not resolve it");
+  else if (overlap.depth > 0 && overlap.explained && !touched)
+    warnings.push_back("no contact presses, and " + overlap.text(model.bodies.front().dimension()) +
+                       " as drawn, or as a distance that is given or small sliding lets them");
+  if (peaks.sliding.value > noticeable)
+    warnings.push_back(formatted(
+        "bodies slide along each other by up to %.3g edges at t = %.5g %s; slips are taken as small "
+        "here",
+        peaks.sliding.value, peaks.sliding.time, units.time.c_str()));
+  for (std::string& warning : deformationWarnings(peaks, units)) warnings.push_back(std::move(warning));
+  if (peaks.motion.value > 1 && peaks.strain.value == 0)
+    warnings.push_back(
+        formatted("displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as small "
+                  "here",
+                  peaks.motion.value, peaks.motion.time, units.time.c_str()));
+  if (!model.interfaces.empty() && !touched && overlap.depth == 0)
+    warnings.emplace_back(
+        "the bodies never touched: no contact pressed at any step (a motion too small to close the distance, "
+        "the wrong direction, or meshes too coarse to see it)");
+  return warnings;
+}
+
+std::string asLines(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += "warning    " + warning + "\n";
   return text;
 }
 
 std::string logTrial(double error, double tolerance) {
-  return formatted(
-      "           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n", error,
-      tolerance);
+  return formatted("           error in time %.2g above tolerance %.2g: run restarted with smaller steps\n",
+                   error, tolerance);
 }
 
 Log::Log(bool quiet, double endTime)

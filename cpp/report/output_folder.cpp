@@ -176,7 +176,9 @@ fs::path ResultPlace::putInPlace(const fs::path& temporary) const {
   // 2. The exchange.
   requireReplaceable();
   fs::path target = of(manifest->failed);
-  if (!fs::exists(target)) {
+  const bool replaces = fs::exists(target);
+  if (replaces) addReplaced(temporary.string(), target.string());
+  if (!replaces) {
     fs::rename(temporary, target);
   } else if (renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
     if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP)
@@ -189,9 +191,10 @@ fs::path ResultPlace::putInPlace(const fs::path& temporary) const {
 }
 
 void ResultPlace::finish(const fs::path& target, const std::string& name) const {
+  const std::optional<ino_t> replaced = FolderLock(target.string()).replaced();
   for (const std::string& old : {name, name + asideName}) {
     const fs::path folder = parent() / old;
-    if (!isCalled(name, ".tmp-") || !isFolder(folder)) continue;
+    if (!isCalled(name, ".tmp-") || !isFolder(folder) || numberOf(folder.string()) != replaced) continue;
     if (!fs::is_empty(folder) && (!isResult(folder) || isMarked(folder))) continue;
     const fs::path gone = renamed(folder);
     if (fs::is_empty(gone))

@@ -3,13 +3,16 @@
 // result stands in its place, whole, and every file of others (pictures, ParaView states) stays:
 //   1. DIR.tmp-PID gets its manifest: from here on the run is complete, and who finds it does steps 2 to 4.
 //   2. Names are exchanged: DIR is the new result, DIR.tmp-PID the old one. The run.lock in DIR names the
-//      latter.
+//      latter, and has its number (inode): another folder of that name is not entered.
 //   3. Files of others move from the old result into the new one; what the old one's manifest lists goes.
 //   4. Stopped runs for DIR and an old DIR.failed go, run.lock last.
 // Folders that are just being made or taken away are called DIR.mortier-PID.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +22,8 @@
 namespace mortier {
 
 // Which process a folder belongs to. Every folder in which a run writes holds the file run.lock, locked while
-// its process lives; its one line, `mortier run in NAME`, says that the folder is the program's, and how it
-// was called then.
+// its process lives; its line `mortier run in NAME` says that the folder is the program's, and how it was
+// called then, the line `in place of NUMBER` which folder it replaces.
 
 /// An open file, closed with the object; -1 for none.
 class OpenFile {
@@ -61,12 +64,21 @@ class FolderLock {
   [[nodiscard]] bool held() const { return state_ == State::held; }
   /// What the folder was called while the run wrote.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// The number of the folder that this one was to replace, if any.
+  [[nodiscard]] const std::optional<ino_t>& replaced() const { return replaced_; }
 
  private:
   OpenFile file_;
   State state_ = State::none;
   std::string name_;
+  std::optional<ino_t> replaced_;
 };
+
+/// \throws OutputError
+ino_t numberOf(const std::string& folder);
+
+/// Writes into the lock of a folder whose place it is to take. \throws OutputError
+void addReplaced(const std::string& folder, const std::string& replaced);
 
 /// One process at a time looks for runs in a folder, makes new ones and puts results in place. Without effect
 /// where folders cannot be locked, and where whoever has the lock keeps it for long.

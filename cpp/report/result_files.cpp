@@ -42,7 +42,7 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
   });
 }
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentMeshError& error,
                          const std::vector<Quantity>& quantities, const Units& units)
     : model_(model),
       history_(folder + "/history.csv"),
@@ -53,7 +53,7 @@ ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentS
   writeContactHeader(contact_, model);
 }
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentMeshError& error,
                          const FilesSoFar& soFar)
     : model_(model),
       history_(folder + "/history.csv", soFar.history),
@@ -105,7 +105,7 @@ const std::vector<Column>& columnsOfSteps() {
       {"estimate", {}, &R::estimate},
       {"rejections", {}, &R::rejections},
       {"guarded", {}, [](const R& r) { return r.guarded ? 1 : 0; }},
-      {"rung", {}, [](const R& r) { return std::string_view(nameOf(r.rung)); }},
+      {"rung", {}, [](const R& r) { return std::string_view(nameOf(r.method)); }},
       {"iterations", {}, &R::iterations},
       {"factorisations", {}, &R::factorisations},
       {"active", {}, &R::active},

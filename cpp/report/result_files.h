@@ -73,10 +73,10 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 class ResultFiles {
  public:
   /// \param error  of the states that are added
-  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+  ResultFiles(const std::string& folder, const Model& model, CurrentMeshError& error,
               const std::vector<Quantity>& quantities, const Units& units);
   /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
-  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+  ResultFiles(const std::string& folder, const Model& model, CurrentMeshError& error,
               const FilesSoFar& soFar);
 
   /// Adds a step (or the initial state, step 0). \param kept  whether its fields and contact are

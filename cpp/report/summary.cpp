@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/ranks.h"
 #include "material/stress.h"
 #include "report/clock.h"
 #include "report/fields.h"
@@ -195,7 +194,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody},
                        {"at", jsonOf(accuracy.worst, model.bodies.front().dimension())}};
-  if (accuracy.bound) json["bound"] = jsonOfBounds<Json>(accuracy);
+  if (accuracy.bound) json["bound"] = jsonOfBound<Json>(*accuracy.bound);
   return json;
 }
 
@@ -296,9 +295,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     json["rounds"] = rounds(facts, elements);
   }
   json["peak_memory_mib"] = peakMemory();
-  if (const Ranks& ranks = Ranks::all(); ranks.shared())
-    json["ranks"] = {{"count", ranks.count()}, {"messages_of_first_bytes", ranks.traffic()}};
   json["wall_time_s"] = processSeconds();
+  if (facts.processes > 0) json["processes"] = facts.processes;
   json["versions"] = Json::object();
   for (const auto& [name, version] : facts.versions) json["versions"][name] = version;
   json["scene_text"] = facts.sceneText;

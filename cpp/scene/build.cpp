@@ -5,6 +5,7 @@
 
 #include "base/digits.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "mesh/boundary_line.h"
 #include "scene/document.h"
 #include "scene/expression.h"
@@ -31,6 +32,7 @@ Model buildModel(ResolvedScene& scene) {
   const std::vector<double> times = sampleTimes(description.time);
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
+    stopIfInterrupted();
     const BodyDescription& body = description.bodies[b];
     model.bodies.push_back(description.inSpace()
                                ? buildSpaceBody(body, std::move(scene.spaceMeshes[b]), description, times)
@@ -39,7 +41,10 @@ Model buildModel(ResolvedScene& scene) {
   scene.meshes.clear();
   scene.spaceMeshes.clear();
   if (description.inSpace()) requireMemory(memoryNeed(model, description.solver), false);
-  for (const ContactDescription& contact : description.contacts) addContact(description, contact, model);
+  for (const ContactDescription& contact : description.contacts) {
+    stopIfInterrupted();
+    addContact(description, contact, model);
+  }
   if (solvesSparse(model, description.solver))  // of such long lines with C alone
     for (ContactInterface& interface : model.interfaces) interface.stopYielding();
   return model;
@@ -101,9 +106,10 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     if (quantity.kind == Quantity::Kind::reaction &&
         firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
-    const bool isOfContact =
-        quantity.kind == Quantity::Kind::contactForce || quantity.kind == Quantity::Kind::largestPressure ||
-        quantity.kind == Quantity::Kind::contactLength || quantity.kind == Quantity::Kind::meanPressure;
+    using Kind = Quantity::Kind;
+    const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
+                             quantity.kind == Kind::contactLength || quantity.kind == Kind::contactArea ||
+                             quantity.kind == Kind::meanPressure;
     if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
       refuse(label + " is no side of a contact, expected one");
     if (quantity.kind == Quantity::Kind::frictionWork &&
@@ -119,7 +125,9 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
                             : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty()) refuse("point = " + point + ", expected a point of body " + body.name());
     }
-    if (quantity.kind == Quantity::Kind::meanPressure) {
+    if (quantity.kind == Kind::meanPressure && body.space() != nullptr) {
+      quantity.shares = meanPressureShares(model, quantity.body, quantity.label);
+    } else if (quantity.kind == Kind::meanPressure) {
       const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);
       try {
         quantity.part = description.part ? LinePart(line, description.part->from, description.part->to,

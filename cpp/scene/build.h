@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "fem/body.h"
+#include "mesh/simplices.h"
 #include "scene/resolve.h"
 #include "time/march.h"
 
@@ -29,13 +30,6 @@ std::string findInitialEquilibrium(const SceneDescription& scene, const Model& m
 std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length);
 
 // Parts of a model. \throws InputError
-
-inline const std::vector<std::array<int, 3>>& elementsOf(const TriangleMesh& mesh) {
-  return mesh.triangles;
-}
-inline const std::vector<std::array<int, 4>>& elementsOf(const TetrahedronMesh& mesh) {
-  return mesh.tetrahedra;
-}
 
 /// Centres of a few hundred elements: enough to find an expression that has no value.
 template <class Mesh>

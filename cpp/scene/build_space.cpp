@@ -83,7 +83,8 @@ Body buildSpaceBody(const BodyDescription& description, TetrahedronMesh mesh, co
     conditions.temperature = finiteInSpace(description.temperature->value);
     conditions.expansion = expansionOf(description, mesh, Plane::none, places, times);
   }
-  Body body(description.name, std::move(mesh), material, std::move(conditions), scene.degree);
+  Body body(description.name, std::move(mesh), material, std::move(conditions), scene.degree,
+            description.volume == Volume::averaged);
   requireOneMotion(description, body, times);
   return body;
 }

@@ -1,85 +1,41 @@
 #include "scene/expression.h"
 
-#include <muParser.h>
-
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
-#include <set>
 
 #include "base/error.h"
 #include "scene/document.h"
+#include "scene/formulas.h"
 
 namespace mortier {
 
 namespace {
 
-/// A compiled expression with variables of its own: muParser keeps their addresses, so that a copy compiles
-/// anew, when it is first evaluated: most copies are only passed on.
-class Compiled {
+/// The value of a formula in x, y, t or x, y, z, t. Copies have numbers of their own: a thread takes its own.
+class Value {
  public:
-  Compiled(std::string text, bool inSpace) : text_(std::move(text)), inSpace_(inSpace) { compile(); }
-  Compiled(const Compiled& other) : text_(other.text_), inSpace_(other.inSpace_) {}
-  Compiled(Compiled&& other) noexcept = default;
-  Compiled& operator=(const Compiled&) = delete;
-  Compiled& operator=(Compiled&&) = delete;
-  ~Compiled() = default;
+  Value(std::shared_ptr<const Formulas> formula, bool inSpace)
+      : formula_(std::move(formula)), variables_(inSpace ? 4 : 3) {}
 
   double operator()(double x, double y, double t) const { return (*this)(SpacePoint(x, y, 0), t); }
   double operator()(const SpacePoint& x, double t) const {
-    if (!work_) compile();
-    work_->x = x;
-    work_->t = t;
-    return work_->parser.Eval();
-  }
-
-  /// Those that the text holds; reads it again.
-  [[nodiscard]] std::set<std::string> variables() const {
-    std::set<std::string> names;
-    for (const auto& [name, address] : work_->parser.GetUsedVar()) names.insert(name);
-    return names;
-  }
-  /// Evaluates once; how many values the text holds ("1, 2" are two).
-  [[nodiscard]] int values() const {
-    work_->parser.Eval();
-    return work_->parser.GetNumResults();
+    values_.resize(variables_ * pointsAtOnce);
+    for (int k = 0; k + 1 < variables_; ++k) values_[k * pointsAtOnce] = x[k];
+    values_[(variables_ - 1) * pointsAtOnce] = t;
+    std::array<double, pointsAtOnce> result;
+    formula_->evaluate(values_.data(), result.data(), 1, numbers_);
+    return result[0];
   }
 
  private:
-  struct Work {
-    mu::Parser parser;
-    SpacePoint x{0, 0, 0};
-    double t = 0;
-  };
-
-  void compile() const {
-    work_ = std::make_unique<Work>();
-    work_->parser.ResetLocale();
-    work_->parser.DefineVar("x", &work_->x[0]);
-    work_->parser.DefineVar("y", &work_->x[1]);
-    if (inSpace_) work_->parser.DefineVar("z", &work_->x[2]);
-    work_->parser.DefineVar("t", &work_->t);
-    work_->parser.DefineConst("pi", std::numbers::pi);
-    work_->parser.SetExpr(text_);
-  }
-
-  std::string text_;
-  bool inSpace_;
-  mutable std::unique_ptr<Work> work_;
+  std::shared_ptr<const Formulas> formula_;
+  int variables_;
+  mutable std::vector<double> values_, numbers_;
 };
-
-/// muParser lets an expression assign to its variables; a datum must not.
-bool assigns(const std::string& text) {
-  for (size_t i = 0; i < text.size(); ++i) {
-    const bool comparison = (i > 0 && std::string("=!<>").find(text[i - 1]) != std::string::npos) ||
-                            (i + 1 < text.size() && text[i + 1] == '=');
-    if (text[i] == '=' && !comparison) return true;
-  }
-  return false;
-}
 
 /// \throws DatumError  \param z  none in the plane
 double finite(double value, const std::string& where, double x, double y, double t,
@@ -87,11 +43,6 @@ double finite(double value, const std::string& where, double x, double y, double
   if (std::isfinite(value)) return value;
   throw DatumError(where + ", expected a finite number, is " + shortest(value) + " at x = " + shortest(x) +
                    ", y = " + shortest(y) + (z ? ", z = " + shortest(*z) : "") + ", t = " + shortest(t));
-}
-
-[[noreturn]] void reject(const std::string& where, const std::string& reason, bool inSpace) {
-  throw InputError(where + ", expected an expression in x, y, " + (inSpace ? "z, t (" : "t (") + reason +
-                   ")");
 }
 
 }  // namespace
@@ -146,36 +97,30 @@ Expression negated(Expression expression) {
 }
 
 Expression parseExpression(const std::string& text, std::string where, bool inSpace) {
-  if (text.find_first_not_of(" \t\n\r") == std::string::npos) reject(where, "it is empty", inSpace);
-  if (assigns(text)) reject(where, "assignment is not allowed", inSpace);
-  try {
-    Compiled compiled(text, inSpace);
-    if (compiled.values() != 1) reject(where, "it has several values", inSpace);
-    const std::set<std::string> variables = compiled.variables();
-    if (variables.empty()) {
-      const double value = compiled(0, 0, 0);
-      Expression result = constantExpression(value, std::move(where));
-      result.text = text;
-      finite(value, result.where, 0, 0, 0);
-      return result;
-    }
-    const bool inTime = variables.count("t") > 0;
-    SpaceDatum ofSpace;
-    if (variables.count("z") > 0)
-      ofSpace = [compiled](const SpacePoint& x, double t) { return compiled(x, t); };
-    Datum datum =
-        Function([value = std::move(compiled)](double x, double y, double t) { return value(x, y, t); });
-    datum.inTime = inTime;
-    describe(text, datum);
-    return {text, std::move(where), false, std::move(datum), {}, inTime, std::move(ofSpace)};
-  } catch (const mu::Parser::exception_type& error) {
-    std::string reason = error.GetMsg();
-    reason = reason.substr(0, reason.find_first_of("\r\n"));
-    if (!reason.empty() && reason.back() == '.') reason.pop_back();
-    if (!reason.empty())
-      reason.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(reason.front())));
-    reject(where, reason, inSpace);
+  const std::vector<std::string> variables =
+      inSpace ? std::vector<std::string>{"x", "y", "z", "t"} : std::vector<std::string>{"x", "y", "t"};
+  const auto formula = std::make_shared<Formulas>(variables, std::map<std::string, Formulas::Text>{});
+  formula->add({text, where});
+  const Value value(formula, inSpace);
+  const int last = static_cast<int>(variables.size()) - 1;
+  bool constant = true;
+  for (int k = 0; k <= last; ++k) constant = constant && !formula->dependsOn(k);
+  if (constant) {
+    Expression result = constantExpression(finite(value(0, 0, 0), where, 0, 0, 0), where);
+    result.text = text;
+    return result;
   }
+  SpaceDatum ofSpace;
+  if (inSpace && formula->dependsOn(2))
+    ofSpace = [value](const SpacePoint& x, double t) { return value(x, t); };
+  Datum datum = Function([value](double x, double y, double t) { return value(x, y, t); });
+  datum.inTime = formula->dependsOn(last);
+  describe(*formula, inSpace, datum);
+  Expression result{text, std::move(where), false, std::move(datum), {}};
+  result.inTime = result.value.inTime;
+  result.inSpace = std::move(ofSpace);
+  result.formula = formula;
+  return result;
 }
 
 double Expression::at(const SpacePoint& x, double t) const {

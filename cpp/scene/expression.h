@@ -2,12 +2,19 @@
 // as "-10*t" or "sin(pi*x)".
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/datum.h"
 
 namespace mortier {
+
+class Formulas;
+
+/// Of each interval of time at which data are evaluated: the golden section, which no period of what people
+/// write divides.
+inline constexpr double unevenPart = 0.3819660112501051;
 
 struct Expression {
   std::string text;       ///< as written, for messages and for FreeFEM
@@ -17,6 +24,8 @@ struct Expression {
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
   bool inTime = false;              ///< depends on t
   SpaceDatum inSpace = {};          ///< its value where it depends on z; empty elsewhere
+  std::shared_ptr<const Formulas> formula =
+      {};  ///< of a text that is no number; empty for numbers and tables
 
   [[nodiscard]] double at(const SpacePoint& x, double t) const;
 };
@@ -56,10 +65,14 @@ SpaceDatum finiteInSpace(const Expression& expression);
 /// One of them.
 SpaceDatum finiteAt(const Expression& expression, bool inSpace);
 
-// What the text of an expression in x, y, t and z says about it without trying it at points: its degree in x,
-// y and z, and enclosures of it and its derivatives (base/taylor.h).
+// What the text of an expression says about it without trying it at points.
 
-/// Fills in the degree and the enclosures of a datum of that text; nothing where it is not a formula.
-void describe(const std::string& text, Datum& datum);
+/// Fills in the degree in x, y and z, that in t, and enclosures of the values and the derivatives
+/// (base/taylor.h) of the datum that the formula in x, y, t or x, y, z, t is.
+void describe(const Formulas& formula, bool inSpace, Datum& datum);
+/// Whether it is t times what does not depend on t. \param time  the number of t among the variables
+bool proportionalToTime(const Formulas& formula);
+/// Times that t is compared with: where it may have kinks, as they are met.
+std::vector<double> kinksInTime(const Formulas& formula);
 
 }  // namespace mortier

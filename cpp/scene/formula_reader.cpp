@@ -1,4 +1,4 @@
-// The grammar of formulas, that of muParser, which reads all other expressions (formulas_test.cpp compares).
+// The grammar of expressions (docs/scene.md).
 #include <algorithm>
 #include <cctype>
 #include <charconv>

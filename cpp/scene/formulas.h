@@ -1,6 +1,6 @@
-// Expressions of several variables, in the language of scene/expression.h, that are evaluated with their
-// derivatives: their text is read once into a list of operations, none twice, each of which then runs on a
-// block of points, in numbers of any kind (material/rate_law.h).
+// Expressions of several variables, evaluated with their derivatives: their text is read once into a list of
+// operations, none twice, each of which then runs on a block of points, in numbers of any kind
+// (material/rate_law.h).
 #pragma once
 
 #include <map>
@@ -27,6 +27,7 @@ class Formulas {
   /// Reads an expression; it is the next result of evaluate(). \throws InputError `where, expected an
   /// expression in ... (what is wrong, at which character)`.
   void add(const Text& expression);
+  [[nodiscard]] int variables() const { return static_cast<int>(variables_.size()); }
   /// Whether a result depends on the variable.
   [[nodiscard]] bool dependsOn(int variable) const;
 

@@ -26,15 +26,15 @@ units | | SI | a length, a force, a stress, and a time if it is not s: `"mm, N, 
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 mesh | m | | a file of a mesh or a geometry ([kinds](#meshes)), or a table | path relative
   to the scene
-volume | | `"automatic"` | `"automatic"`, `"pointwise"`, `"averaged"` | the volumetric strain that the
-  material gets: of each point, or averaged over patches of triangles, by itself where the body keeps its
-  volume ([below](#bodies-that-keep-their-volume))
+volume | | `"automatic"` | `"automatic"`, `"pointwise"`, `"averaged"` | volumetric strain
+  of the material: pointwise, averaged over patches of elements (against locking), or chosen by the program
+  ([below](#bodies-that-keep-their-volume))
 material, force, boundary, region, initial_stress, point
-temperature | K | 0 | datum, or `{ file = "...", factor = datum }` | above that at which nothing is strained;
-  of a file nodal values, a number for each vertex of the mesh in its order, times `factor` (1); needs
+temperature | K | 0 | datum, or `{ file = "...", factor = datum }` | temperature change from the
+  stress-free state; of a file a value for each vertex of the mesh in its order, times `factor` (1); needs
   `expansion` ([below](#temperature))
 [body.mesh]
-file | | | as `mesh` | the file, where more is to be said of it
+file | | | as `mesh` | the file, in a table with further keys
 region | | all | a region, by number or name, or a list of them | the part of the file that is the body:
   several bodies may be drawn in one
 size | m | the geometry's own | > 0 | longest edge, where Gmsh meshes a geometry
@@ -82,19 +82,20 @@ yield_stress | Pa | none: elastic | > 0, with `viscosity`; with law = "perzyna",
 projection | | `"frobenius"` | `"elasticity"`, `"frobenius"`, `"compliance"`; with law = "perzyna" | norm in
   which stresses are projected on the elastic domain; without meaning in an elastic body and in plane strain,
   where all three are one
-reference_stress | Pa | | > 0; with law = "norton", "viscoplastic" | a uniaxial stress ([below](#creep)); of
-  the latter an overstress ([below](#flow-by-the-overstress))
-reference_rate | 1/s | | > 0; with law = "norton", "viscoplastic" | the rate of creep, or of flow, under it
-exponent | | | >= 1; with law = "norton", "viscoplastic" | the power of the stress, or the overstress, with
-  which that grows
-relaxation_time | s | | > 0; with law = "maxwell", "standard-solid" | in which shear relaxes at constant
+reference_stress | Pa | | > 0; with law = "norton", "viscoplastic" | uniaxial stress at the reference rate
+  ([below](#creep)); of `"viscoplastic"` an overstress ([below](#flow-by-the-overstress))
+reference_rate | 1/s | | > 0; with law = "norton", "viscoplastic" | creep rate, or flow rate, at the
+  reference stress
+exponent | | | >= 1; with law = "norton", "viscoplastic" | exponent n of the rate law: the rate grows with the
+  n-th power of the stress, or of the overstress
+relaxation_time | s | | > 0; with law = "maxwell", "standard-solid" | relaxation time of shear at constant
   strain ([below](#viscoelasticity))
-relaxed_fraction | | | between 0 and 1; with law = "standard-solid" | the part of the shear modulus that stays
-  after all time
-kinematic_hardening | Pa | 0 | >= 0; with law = "viscoplastic" | stress over plastic strain by which the yield
-  surface moves (Prager)
-isotropic_hardening | Pa | 0 | >= 0; with law = "viscoplastic"; in all regions of a body or in none | the same
-  by which it grows
+relaxed_fraction | | | between 0 and 1; with law = "standard-solid" | long-term over instantaneous shear
+  modulus
+kinematic_hardening | Pa | 0 | >= 0; with law = "viscoplastic" | Prager's modulus H: back stress = H x plastic
+  strain
+isotropic_hardening | Pa | 0 | >= 0; with law = "viscoplastic"; in all regions of a body or in none |
+  isotropic hardening modulus: yield stress over accumulated plastic strain
 rate11, rate22, rate12 | 1/s | | expressions; with law = "expression" | the viscoplastic strain rate
   ([below](#user-defined-laws))
 rate33 | 1/s | | expression, but for `plane = "stress"`; with law = "expression" | the same across the plane,
@@ -151,7 +152,7 @@ ux, uy, uz | m | free | datum, one of them at least | prescribed displacement; `
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
 points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
-  the spline goes through; the tool lies to the left of the way
+  the spline goes through; the tool lies to the left of the polyline
 labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides, from the first corner on
 centre | m | | `[x, y]`; with shape = "disc" | of the circle
 radius | m | | > 0; with shape = "disc" | of the circle
@@ -168,9 +169,9 @@ nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the conta
 mortar | | | `{ body = "name", label = 3 }` | the other side
 sides | | | `[{ body = "a", label = 1 }, { body = "b", label = 3 }]` | the two sides in any order, in place of
   `nonmortar` and `mortar`: the program chooses (below)
-variant | | `"mortar"`, with `degree = 2` `"weighted"` | `"interpolation"`, `"mortar"`, `"weighted"` | what
-  must not become negative, as a gap and as a force: the values of the gap at the nodes, its projection, or
-  its means weighted with the hat functions of the nonmortar vertices, whose pressure is nowhere negative
+variant | | `"mortar"`, with `degree = 2` `"weighted"` | `"interpolation"`, `"mortar"`, `"weighted"` | how
+  non-penetration is imposed: at the nodes, by the L2 projection of the gap, or by means of the gap weighted
+  with the hat functions of the nonmortar vertices, whose pressure is nowhere negative
   ([theory](theory.md#contact-one-set-of-rows)); each with `degree` 1 or 2
 stabilised | | true where `variant` is left out, without `accuracy.bound` | true, false |
   conditions yield where the mortar side is the coarser one, so that pressures do not alternate from node to
@@ -180,8 +181,8 @@ initial | | `"as-meshed"` | `"as-meshed"`, `"close"`, `"reject"` | the distance 
   (a penetration of up to a hundredth of the shorter line is a negative distance); or set to zero; or a scene
   whose bodies do not touch is rejected
 gap | m | as drawn | datum | distance at the nonmortar nodes (`check` warns where it varies between them), in
-  place of that as drawn: positive apart, negative for an interference; one that changes in time does work
-  ([below](#distances-that-change))
+  place of that as drawn: positive apart, negative for an interference; a gap that changes in time does
+  work on the bodies ([below](#distances-that-change))
 friction | | 0 | >= 0 | Coulomb's coefficient, the largest ratio of shear stress to pressure: below it
   the bodies stick ([below](#friction))
 shear_limit | Pa | 0 | >= 0, without `friction` | Tresca's law: the shear stress at which the surfaces slip,
@@ -207,26 +208,29 @@ stored_energy | J/m | | `{ body = "name" }` | recoverable energy of the body: el
 dissipated_energy | J/m | | `{ body = "name" }` | energy turned into heat since the run began: time integral
   of (s - X) : G, X the back stress of `kinematic_hardening` or of the spring parallel to the dashpot of a
   standard solid, X = 0 for a user-defined law
-work | J/m | | `{ body = "name" }` | what all forces have done on the body since then, those of contact
-  included
-external_work | J/m | | `{ body = "name" }` | of it, what loads and supports have done
-thermal_work | J/m | | `{ body = "name" }` | what its thermal strain has done on the body since then
+work | J/m | | `{ body = "name" }` | work of all forces on the body since t = 0, contact forces included
+external_work | J/m | | `{ body = "name" }` | work of loads and supports on the body since t = 0
+thermal_work | J/m | | `{ body = "name" }` | work of the thermal strain on the body since t = 0
 largest_pressure | Pa | | `{ body = "name", label = 1 }` | the largest contact pressure on the side, and where
 contact_length | m | | `{ body = "name", label = 1 }` | length of the part of the side that is in contact,
   twice the half-width of a round body; off by half an element at each end
+contact_area | m^2 | | `{ body = "name", label = 1 }` | with `dimension = 3`: area of the part of the side
+  that is in contact; off by half an element along its border
 largest_mises | Pa | | `{ body = "name" }` | the largest von Mises stress in the body, and where
 friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by friction along the side since
   the run began
 mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
-component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool), `"z"` (with `dimension = 3`) |
-  of reactions, contact forces and displacements; moments [N] and rotations [rad] are counterclockwise
-about | m | [0, 0], of a tool `at` | `[x, y]` | the point of a moment
+component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool); with `dimension = 3` `"x"`,
+  `"y"`, `"z"`, of forces `"moment_x"`, `"moment_y"`, `"moment_z"` | of reactions, contact forces and
+  displacements; moments [N], in space [N m], and rotations [rad] are counterclockwise
+about | m | the origin, of a tool `at` | `[x, y]`, in space `[x, y, z]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
   quantity.largest_mises]
 body
-[quantity.contact_force quantity.largest_pressure quantity.contact_length quantity.friction_work]
+[quantity.contact_force quantity.largest_pressure quantity.contact_length quantity.contact_area
+  quantity.friction_work]
 body, label
 [quantity.reaction quantity.displacement]
 body, label
@@ -259,8 +263,6 @@ max_iterations | | 4000; penalty-duality 5000 | integer >= 1 | linear solves in 
 linear | | `"multifrontal"` | `"multifrontal"`, `"suitesparse"`, `"single"` | our own factorisation
   (SuiteSparse where it fails), SuiteSparse only, or our own in single precision, corrected, where bodies in
   space have a symmetric tangent; large linear bodies in space always have it
-distributed_from | | 4000 | integer >= 1 | under `mpirun`: equations between the parts of the processes from
-  which on their factor is distributed ([scaling.md](scaling.md#the-factor-of-the-skeleton))
 reduce | | true | true, false | leave out what changes nothing ([theory.md](theory.md), "What is left out");
   false factorises in every iteration and solves every step
 list_solutions | | false | true, false | with friction, look for other solutions of every step

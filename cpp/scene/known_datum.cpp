@@ -212,14 +212,8 @@ int degreeOf(const Operation& operation, const std::array<int, 4>& variables, in
 
 }  // namespace
 
-void describe(const std::string& text, Datum& datum) {
-  Formulas formulas({"x", "y", "t", "z"}, {});
-  try {
-    formulas.add({text, ""});
-  } catch (const InputError&) {
-    return;  // words that formulas do not have
-  }
-  const std::vector<Operation>& operations = formulas.operations();
+void describe(const Formulas& formula, bool inSpace, Datum& datum) {
+  const std::vector<Operation>& operations = formula.operations();
   const auto degreeIn = [&](const std::array<int, 4>& variables) {
     std::vector<int> degrees;
     for (const Operation& each : operations) {
@@ -227,14 +221,15 @@ void describe(const std::string& text, Datum& datum) {
       const auto of = [&](int k) { return k < 0 || variable ? 0 : degrees[k]; };
       degrees.push_back(degreeOf(each, variables, of(each.a), of(each.b), of(each.c)));
     }
-    return degrees[formulas.result(0)];
+    return degrees[formula.result(0)];
   };
-  datum.degree = degreeIn({1, 1, 0, 1});
-  datum.degreeInTime = degreeIn({0, 0, 1, 0});
+  using Which = std::array<int, 4>;
+  datum.degree = degreeIn(inSpace ? Which{1, 1, 1, 0} : Which{1, 1, 0, 0});
+  datum.degreeInTime = degreeIn(inSpace ? Which{0, 0, 0, 1} : Which{0, 0, 1, 0});
   const auto enclosed =
-      [operations, result = formulas.result(0), work = std::vector<Taylor>(operations.size())](
+      [operations, inSpace, result = formula.result(0), work = std::vector<Taylor>(operations.size())](
           const Taylor& x, const Taylor& y, const Taylor& t, const Taylor& z) mutable -> const Taylor& {
-    const std::array<const Taylor*, 4> variables{&x, &y, &t, &z};
+    const std::array<const Taylor*, 4> variables{&x, &y, inSpace ? &z : &t, &t};
     for (size_t i = 0; i < operations.size(); ++i) {
       const Operation& each = operations[i];
       const auto of = [&](int k) -> const Taylor& { return work[std::max(k, 0)]; };
@@ -253,6 +248,61 @@ void describe(const std::string& text, Datum& datum) {
       return values(x, y, t, Taylor());
     };
   };
+}
+
+bool proportionalToTime(const Formulas& formula) {
+  enum Kind { constant, proportional, other };
+  const int time = formula.variables() - 1;
+  std::vector<Kind> kinds;
+  for (const Operation& each : formula.operations()) {
+    const auto of = [&](int k) { return k < 0 || each.op == Op::variable ? constant : kinds[k]; };
+    const Kind a = of(each.a);
+    const Kind b = of(each.b);
+    const Kind c = of(each.c);
+    Kind kind = a == constant && b == constant && c == constant ? constant : other;
+    switch (each.op) {
+      case Op::variable:
+        kind = each.a == time ? proportional : constant;
+        break;
+      case Op::negate:
+        kind = a;
+        break;
+      case Op::add:
+      case Op::subtract:
+        if (a == b) kind = a;
+        break;
+      case Op::multiply:
+        if (a == constant || b == constant) kind = std::max(a, b);
+        break;
+      case Op::divide:
+        if (b == constant) kind = a;
+        break;
+      case Op::choose:
+        if (a == constant && b == c) kind = b;
+        break;
+      default:
+        break;
+    }
+    kinds.push_back(kind);
+  }
+  return kinds[formula.result(0)] == proportional;
+}
+
+std::vector<double> kinksInTime(const Formulas& formula) {
+  std::vector<double> result;
+  const auto isTime = [&](const Operation& each) {
+    return each.op == Op::variable && each.a == formula.variables() - 1;
+  };
+  for (const Operation& each : formula.operations()) {
+    const bool compares =
+        each.op == Op::less || each.op == Op::lessOrEqual || each.op == Op::min || each.op == Op::max;
+    if (!compares) continue;
+    const Operation& a = formula.operations()[each.a];
+    const Operation& b = formula.operations()[each.b];
+    if (isTime(a) && b.op == Op::number) result.push_back(b.number);
+    if (isTime(b) && a.op == Op::number) result.push_back(a.number);
+  }
+  return result;
 }
 
 }  // namespace mortier

@@ -1,7 +1,6 @@
 #include "scene/load_courses.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -12,37 +11,6 @@
 
 namespace mortier {
 namespace {
-
-/// Names and numbers of an expression, and its other characters one by one.
-std::vector<std::string> tokens(const std::string& text) {
-  std::vector<std::string> result;
-  bool inWord = false;
-  for (const char c : text) {
-    if (c == ' ') continue;
-    const bool ofWord = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-    if (ofWord && inWord)
-      result.back() += c;
-    else
-      result.emplace_back(1, c);
-    inWord = ofWord;
-  }
-  return result;
-}
-
-/// Whether an expression is a product, one factor of which is t, and nothing else depends on t.
-bool proportionalToTime(const std::string& text) {
-  int depth = 0;
-  int times = 0;
-  std::string before = "*";
-  for (const std::string& token : tokens(text)) {
-    if (token == "-" && before == "*") continue;  // a sign
-    if (token == "t" && (depth > 0 || before != "*" || ++times > 1)) return false;
-    if (depth == 0 && token.find_first_of("+-^<>=!?:&|,%") == 0) return false;
-    depth += token == "(" ? 1 : token == ")" ? -1 : 0;
-    before = token;
-  }
-  return times == 1;
-}
 
 /// Calls work(expression, places) for every datum of the scene that changes.
 void forEachDatum(const SceneDescription& scene, const Model& model,
@@ -135,7 +103,7 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
   std::vector<std::string> warnings;
   const double k = scene.time.end / scene.time.steps;
   forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
-    if (proportionalToTime(expression.text)) return;
+    if (expression.formula && proportionalToTime(*expression.formula)) return;
     double most = much;
     std::string warning;
     const auto value = [&](const SpacePoint& p, double t) { return expression.at(p, t); };

@@ -123,12 +123,10 @@ class Search {
   double end_;
 };
 
-/// Uneven, so that no period of what people write hides between them.
 std::vector<double> trialTimes(double end) {
   constexpr int count = 48;
-  constexpr double uneven = 0.3819660112501051;
   std::vector<double> times{0, end};
-  for (int i = 0; i < count; ++i) times.push_back(end * (i + uneven) / count);
+  for (int i = 0; i < count; ++i) times.push_back(end * (i + unevenPart) / count);
   return times;
 }
 

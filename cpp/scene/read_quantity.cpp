@@ -1,5 +1,3 @@
-#include <array>
-
 #include "scene/readers.h"
 
 namespace mortier {
@@ -7,6 +5,10 @@ namespace {
 
 /// Where a mean over a line begins and ends.
 std::optional<QuantityDescription::Part> readPart(const TableReader& of) {
+  if (of.table().inSpace) {
+    of.rejectIfGiven({"from", "to", "margin"}, "none with dimension = 3: the mean is over the whole side");
+    return std::nullopt;
+  }
   if (!of.has("from") && !of.has("to")) {
     of.rejectIfGiven({"margin"}, "it only beside from and to");
     return std::nullopt;
@@ -14,6 +16,31 @@ std::optional<QuantityDescription::Part> readPart(const TableReader& of) {
   for (const char* key : {"from", "to"})
     static_cast<void>(of.require(key, "[x, y], where the part of the line ends: from and to, or neither"));
   return QuantityDescription::Part{of.point("from"), of.point("to"), of.number("margin")};
+}
+
+/// Forces have moments, about axes in space; rigid bodies turn.
+void readComponent(const TableReader& table, const BodyDescription* tool, QuantityDescription& quantity) {
+  using enum Quantity::Component;
+  const bool space = table.table().inSpace;
+  const bool forces = quantity.kind != Quantity::Kind::displacement;
+  std::vector<std::pair<std::string, Quantity::Component>> all{{"x", x}, {"y", y}};
+  if (space) all.emplace_back("z", z);
+  if (forces && space)
+    all.insert(all.end(), {{"moment_x", momentX}, {"moment_y", momentY}, {"moment_z", momentZ}});
+  else if (forces)
+    all.emplace_back("moment", momentZ);
+  else if (quantity.whole)
+    all.emplace_back("rotation", rotation);
+  Keys words;
+  for (const auto& [word, component] : all) words.push_back(word);
+  quantity.component = all[table.oneOf("component", words)].second;
+  if (!isMoment(quantity.component))
+    table.rejectIfGiven({"about"}, std::string("it only beside component = \"moment") +
+                                       (space ? "_x\", \"moment_y\" or \"moment_z\"" : "\""));
+  if (space)
+    quantity.about = table.spacePoint("about", SpacePoint(0, 0, 0));
+  else
+    quantity.about.head<2>() = table.point("about", tool != nullptr ? *tool->reference : Point(0, 0));
 }
 
 }  // namespace
@@ -66,6 +93,8 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
       quantity.where = of.find("label")->where;
     }
     if (kind == Kind::meanPressure) quantity.part = readPart(of);
+    if (kind == Kind::contactLength && node.inSpace) table.reject(key, "contact_area with dimension = 3");
+    if (kind == Kind::contactArea && !node.inSpace) table.reject(key, "contact_length without dimension = 3");
   }
   if (given != 1)
     table.refuse(
@@ -74,21 +103,7 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
     table.rejectIfGiven({"component", "about"}, "it only beside forces and displacements");
     return quantity;
   }
-  Keys components = keyAt("quantity", "component").words;
-  const bool moves = quantity.kind == Kind::displacement;
-  if (node.inSpace) {
-    constexpr std::array ofSpace{Quantity::Component::x, Quantity::Component::y, Quantity::Component::z};
-    quantity.component = ofSpace[table.oneOf("component", {"x", "y", "z"})];
-    table.rejectIfGiven({"about"}, "none with dimension = 3, where no moment is known");
-    return quantity;
-  }
-  components.resize(moves ? 2 : 3);
-  if (moves && quantity.whole) components.emplace_back("rotation");
-  const int component = table.oneOf("component", components);
-  quantity.component = static_cast<Quantity::Component>(moves && component == 2 ? 3 : component);
-  if (quantity.component != Quantity::Component::moment)
-    table.rejectIfGiven({"about"}, "it only beside component = \"moment\"");
-  quantity.about = table.point("about", tool != nullptr ? *tool->reference : Point(0, 0));
+  readComponent(table, tool, quantity);
   return quantity;
 }
 

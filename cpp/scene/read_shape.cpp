@@ -10,7 +10,9 @@ namespace {
 Point pairOf(const TableReader& table, const std::string& key, bool whole) {
   if (!table.has(key)) return {1, 1};
   const Node& node = *table.find(key);
-  const Point pair = node.isNumeric() ? Point(node.value, node.value) : table.point(key);
+  const Point pair = node.isNumeric()            ? Point(node.value, node.value)
+                     : node.elements.size() == 2 ? table.point(key)
+                                                 : Point(0, 0);
   constexpr double most = 1e8;
   const auto good = [&](double x) { return x >= 1 && x <= most && (!whole || x == std::floor(x)); };
   if (!good(pair.x()) || !good(pair.y()))

@@ -45,7 +45,7 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   }
   if (family == line) {
     const std::vector<Point> ends =
-        distinctPoints(table, 2, 2, "two points [[x, y], [x, y]], the tool to the left of the way");
+        distinctPoints(table, 2, 2, "two points [[x, y], [x, y]], the tool to the left of the line");
     return lineOutline(ends[0], ends[1]);
   }
   if (family == rectangle) {

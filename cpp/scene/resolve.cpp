@@ -193,13 +193,13 @@ ResolvedScene resolveScene(SceneDescription scene) {
     for (const BodyDescription& body : description.bodies) resolved.spaceMeshes.push_back(spaceMeshOf(body));
     findPlaces(description, resolved.spaceMeshes);
     decideSides(description, resolved.spaceMeshes);
+    decideVolumes(description);
     return resolved;
   }
   for (const BodyDescription& body : description.bodies) resolved.meshes.push_back(meshOf(body));
   findPlaces(description, resolved.meshes);
-  const std::vector<const TriangleMesh*> meshes = pointersTo(resolved.meshes);
-  decideSides(description, meshes);
-  decideVolumes(description, meshes);
+  decideSides(description, pointersTo(resolved.meshes));
+  decideVolumes(description);
   return resolved;
 }
 
@@ -233,9 +233,8 @@ std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vec
       faults.push_back(error);
     }
   }
-  const std::vector<const TriangleMesh*> chosen(meshes.begin(), meshes.end());
-  decideSides(scene, chosen);
-  decideVolumes(scene, chosen);
+  decideSides(scene, std::vector<const TriangleMesh*>(meshes.begin(), meshes.end()));
+  decideVolumes(scene);
   return faults;
 }
 

@@ -54,8 +54,8 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
 /// triangles.
 double crossedPart(const TriangleMesh& mesh);
 /// Averages the volumetric strain of bodies with such a material, and says why in `volumeChoice`; beside
-/// accuracy.bound none. A second call changes nothing. Bodies without mesh (nullptr) stay as they are.
-void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+/// accuracy.bound none. A second call changes nothing.
+void decideVolumes(SceneDescription& scene);
 
 // Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
 // bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer

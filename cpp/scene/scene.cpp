@@ -104,7 +104,7 @@ void requireAboutAxis(const TableReader& root, const SceneDescription& scene) {
   if (scene.accuracy.bound)
     root.reject("plane", "stress or strain beside accuracy.bound: no bound is known of axisymmetric bodies");
   for (const QuantityDescription& quantity : scene.quantities)
-    if (quantity.component == Quantity::Component::moment)
+    if (quantity.component == Quantity::Component::momentZ)
       throw InputError(quantity.where + ": quantity " + quantity.name +
                        ": component = \"moment\", expected x or y: forces of a whole ring have no moment");
 }
@@ -119,7 +119,6 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
       solver.reject("method", "newton beside time.tolerance: the error is estimated with its tangent");
     scene.solver.maxIterations = solver.integer("max_iterations", defaultIterations(scene.solver.method));
     scene.solver.linear = solver.choice<LinearEngine>("linear");
-    scene.solver.distributedFrom = solver.integer("distributed_from");
     scene.solver.reduce = solver.boolean("reduce");
     scene.solver.listSolutions = solver.boolean("list_solutions");
   }

@@ -99,7 +99,7 @@ struct TemperatureDescription {
   std::string where;
 };
 
-/// The volumetric strain that the material of a body gets (fem/tangent_assembly.h).
+/// The volumetric strain that the material of a body gets (fem/volume_patches.h).
 enum class Volume { automatic, pointwise, averaged };
 
 struct BodyDescription {
@@ -173,7 +173,7 @@ struct QuantityDescription {
   std::optional<Point> point;  ///< in place of the label: of a displacement, or of a support [m]
   std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
   Quantity::Component component = Quantity::Component::x;
-  Point about{0, 0};
+  SpacePoint about{0, 0, 0};
   struct Part {
     Point from, to;     ///< [m]
     double margin = 0;  ///< [m]

@@ -217,12 +217,13 @@ std::string volumeNeed(const SceneDescription& scene, const BodyDescription& bod
   // to 31 % at 0.49, by 0.3 % with the average. Crossed cells do not lock, and are better with it all the
   // same.
   constexpr double locks = 0.45;
-  const bool linear = scene.degree == 1 && scene.plane != Plane::stress;
+  const bool linear = scene.degree == 1 && (scene.inSpace() || scene.plane != Plane::stress);
   const auto needOf = [&](const MaterialDescription& material) -> std::string {
     if (nearlyIncompressible(scene, material) || (linear && material.elasticity.poisson >= locks))
       return "poisson = " + shortest(material.elasticity.poisson) + " keeps the volume";
     const bool flows = linear && material.flows() && material.as<OwnLaw>() == nullptr;
-    return flows ? "flow keeps the volume, on linear triangles" : "";
+    if (!flows) return "";
+    return std::string("flow keeps the volume, on linear ") + (scene.inSpace() ? "tetrahedra" : "triangles");
   };
   std::string need = needOf(body.material);
   for (const RegionDescription& region : body.regions)
@@ -245,10 +246,9 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
          !(scene.plane == Plane::strain && crossedPart(*mesh) > 0.5);
 }
 
-void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    BodyDescription& body = scene.bodies[b];
-    if (body.volume != Volume::automatic || meshes[b] == nullptr) continue;
+void decideVolumes(SceneDescription& scene) {
+  for (BodyDescription& body : scene.bodies) {
+    if (body.volume != Volume::automatic) continue;
     body.volume = Volume::pointwise;
     body.volumeChoice = volumeNeed(scene, body);
     if (body.volumeChoice.empty()) continue;

@@ -11,10 +11,10 @@ constexpr auto inThePlane = " with dimension = 3: known in the plane only";
   throw InputError(where + ": " + what + ", expected none" + inThePlane);
 }
 
-void requireKnown(const BodyDescription& body) {
-  const std::string where = body.where + ": body " + body.name;
-  if (body.volume == Volume::averaged)
-    throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
+void requireKnown(const BodyDescription& body, int degree) {
+  if (body.volume == Volume::averaged && degree == 2)
+    throw InputError(body.volumeWhere +
+                     ", expected pointwise with degree = 2: quadratic tetrahedra do not lock");
 }
 
 void requireKnown(const ContactDescription& contact, int degree) {
@@ -30,8 +30,6 @@ void requireKnown(const ContactDescription& contact, int degree) {
 void requireKnown(const QuantityDescription& quantity) {
   using Kind = Quantity::Kind;
   const std::string where = quantity.where + ": quantity " + quantity.name;
-  if (quantity.kind == Kind::meanPressure) refuse(where, "mean_pressure");
-  if (quantity.kind == Kind::contactLength) refuse(where, "contact_length");
   if (quantity.kind == Kind::frictionWork) refuse(where, "friction_work");
 }
 
@@ -53,7 +51,10 @@ void requireKnownInSpace(const TableReader& root, const SceneDescription& scene)
   const Node* solver = root.find("solver");
   if (solver != nullptr && scene.solver.method != Method::newton)
     refuse(solver->where, "solver: method = \"penalty-duality\"");
-  for (const BodyDescription& body : scene.bodies) requireKnown(body);
+  if (solver != nullptr && scene.solver.listSolutions)
+    TableReader(*solver, "solver", "solver")
+        .reject("list_solutions", std::string("false") + inThePlane + ", of friction");
+  for (const BodyDescription& body : scene.bodies) requireKnown(body, scene.degree);
   for (const ContactDescription& contact : scene.contacts) requireKnown(contact, scene.degree);
   for (const QuantityDescription& quantity : scene.quantities) requireKnown(quantity);
 }

@@ -1,7 +1,5 @@
 #include "scene/versions.h"
 
-#include <muParser.h>
-
 #define TOML_HEADER_ONLY 0
 #include <toml++/impl/version.h>
 
@@ -9,8 +7,7 @@ namespace mortier {
 
 std::vector<std::pair<std::string, std::string>> sceneLibraries() {
   return {{"toml++", std::to_string(TOML_LIB_MAJOR) + "." + std::to_string(TOML_LIB_MINOR) + "." +
-                         std::to_string(TOML_LIB_PATCH)},
-          {"muParser", mu::Parser().GetVersion(mu::pviBRIEF)}};
+                         std::to_string(TOML_LIB_PATCH)}};
 }
 
 }  // namespace mortier

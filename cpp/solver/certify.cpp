@@ -38,7 +38,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     double load = 0, displacement = 0, increment = 0, depth = 0;
   };
   std::vector<Largest> largest(bodies_.size());
-  const double motion = model_.largest(largestMotion(iterate));
+  const double motion = largestMotion(iterate);
   constexpr int tasks = 4;
   threads_.forEach(tasks * static_cast<int>(bodies_.size()), [&](int i) {
     const size_t b = i / tasks;
@@ -66,7 +66,6 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   };
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = model_.bodies[b];
-    model_.sumAtNodes(b, residual[b]);
     residual[b] += step.loads[b];
     Largest& of = largest[b];
     of.load = largestOf(step.loads[b]);
@@ -79,8 +78,6 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       for (int i = 0; i < body.points(); ++i) held.col(i) = stressOf(bodies_[b].law(), strain.col(i), i);
       of.loose = body.largestForce(held);
     }
-    static_assert(sizeof(Largest) == 8 * sizeof(double));
-    model_.largest(&of.now, 8);
     for (const double each : {of.now, of.before, of.load, of.loose}) force.add(each);
     for (const double each : {of.load, of.loose}) load.add(each);
     // A body that moves without any load, or touches another without any, has forces that are nothing but the
@@ -95,6 +92,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     length.add(of.displacement);
     rounding.add(of.rounded);
   }
+  subtractContact(iterate.contactForce, iterate.frictionForce, residual);
   Worst beyondBound;
   Worst wrongSlip;
   const std::vector<Vector> slip = slips(model_, iterate);
@@ -117,10 +115,8 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     const int b1 = interface.pair().nonmortar.body;
     const int b2 = interface.pair().mortar.body;
     const Vector& p = iterate.contactForce[k];
-    interface.subtractForces(p, residual[b1], residual[b2]);
     if (interface.hasFriction()) {
       const Vector& t = iterate.frictionForce[k];
-      interface.subtractFriction(t, residual[b1], residual[b2]);
       const Vector bound = interface.frictionBound(p);
       for (Eigen::Index i = 0; i < t.size(); ++i) {
         const int sign = iterate.slipping[k][i];
@@ -143,7 +139,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   }
   Worst own;
   for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));
-  const double balance = model_.largest(own.value());
+  const double balance = own.value();
   const double rounded = ofRounding.value();
   const bool unloaded = repeated && load.value() == 0 && std::max(force.value(), balance) <= rounded;
   force.add(rounded);
@@ -156,7 +152,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   result.materialResidual = materialResidual;
   result.gapOnActive = gapOnActive.value();
   result.openPenetration = openPenetration.value();
-  result.sign = overForce(iterate.wrongForce);
+  result.sign = overForce(iterate.largestTension);
   result.complementarity = complementarity.value();
   result.friction = worse(overForce(beyondBound.value()), wrongSlip.value());
   result.rounding = rounding.value();
@@ -167,7 +163,7 @@ Vector StepSystem::compliances() const {
   return sparse() ? sparse_->compliance() : Vector(contact_.W.diagonal());
 }
 
-double StepSystem::opened(const Step& step, const Iterate& iterate) const {
+double StepSystem::gapRoundoff(const Step& step, const Iterate& iterate) const {
   const Vector compliance = compliances();
   const std::vector<Vector> gap = gaps(model_, step.gap0(), iterate);
   double largest = 0;

@@ -64,19 +64,21 @@ int dependentConditions(const Matrix& W);
 /// More work than that of so many factorisations of W is not done for one contact problem.
 constexpr double workLimit = 20;
 
-/// Principal pivoting. First all conditions with a wrong sign change at once, as long as there are fewer of
-/// them each time or two times in vain. Then forces that pull are dropped until none is left; then the
-/// deepest condition of each run of neighbours that overlap is closed. A set that comes of it is kept where
-/// it is better (by its energy where W is symmetric, else by the number of overlaps), or overlaps less than
-/// any before. Otherwise fewer are closed, in the end one: where W is symmetric along the way on which the
-/// energy falls (Lawson and Hanson 1974), else without opening up any other condition: its force grows
-/// until its gap is closed, and conditions on the way that reach the end of their force or gap change
-/// sides. That ends for every P-matrix (Cottle and Dantzig 1968). Factors are updated while the set changes
-/// little (active_factor.h). The balance is held by a proximal term on z, small enough that one or two
-/// repetitions make it exact (Rockafellar 1976). Conditions with W_ii = 0 stay inactive; where conditions
-/// depend on each other the same kind of term on dp picks one of the solutions.
-/// \param active  the set to begin with; of supported bodies without forces, all of it stands for what
-/// overlaps without any.
+/// Principal pivoting on the active set:
+/// 1. Semismooth Newton: all conditions under tension leave the set and all that penetrate join it, while
+///    they become fewer, or two times in vain.
+/// 2. Conditions under tension leave until there are none.
+/// 3. Of each run of neighbours that penetrate the deepest joins, and 2 follows. The set is accepted where
+///    its energy is lower (W symmetric) or fewer conditions penetrate (else), or where the penetration is
+///    less than that of any set before.
+/// 4. Otherwise fewer conditions join, in the end one. W symmetric: along the way on which the energy falls
+///    (Lawson and Hanson 1974). Else its force grows until its gap is closed, and conditions whose force or
+///    gap vanishes on the way change sides (Cottle and Dantzig 1968). That ends for every P-matrix.
+/// Factors are updated while the set changes little (proximal_contact.h). A proximal term on z makes the
+/// balance exact in one or two repetitions (Rockafellar 1976). Conditions with W_ii = 0 stay inactive. Where
+/// conditions depend on each other, a proximal term on dp selects one of the solutions.
+/// \param active  the set to begin with. Of supported bodies without forces a full set stands for the
+/// conditions that penetrate without forces.
 ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
                              const Vector& balance, std::vector<char> active);
 

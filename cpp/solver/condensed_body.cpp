@@ -43,46 +43,20 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
       contact_(model, body, firstRow),
       engine_(engineOf(model, body_, options)),
       reduce_(options.reduce),
-      distributedFrom_(options.distributedFrom),
       whole_(whole),
-      threads_(threads),
-      part_(model.inParts() ? &model.parts[body] : nullptr),
-      ranks_(model.ranks),
-      allPoints_(model.points(body)) {
+      threads_(threads) {
   law_ = body_.material().room(body_.points());
-  if (!whole_ && !body_.rigid()) solver_ = newSolver();
+  if (!whole_ && !body_.rigid()) solver_ = newSolver(engine_, body_.pattern(), contact_.equations, threads_);
 }
 
-std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
-  const bool amongOthers = threads_.count() > 1 && part_ == nullptr;  // bodies are made at once
-  const CondensingSolverFactory engine = engine_ == LinearEngine::suitesparse ? suiteSparseSolver
-                                         : engine_ == LinearEngine::single    ? singleSolver
-                                         : amongOthers                        ? multifrontalSolverOfOneBody
-                                                                              : multifrontalSolver;
-  SharedEquations shared;
-  for (size_t i = 0; part_ != nullptr && i < part_->shared.size(); ++i)
-    for (const int c : {0, 1}) {
-      const int equation = body_.equations()[2 * part_->shared[i] + c];
-      if (part_->own[part_->shared[i]] == 0 || equation < 0) continue;
-      shared.equations.push_back(equation);
-      shared.numbers.push_back(2 * part_->places[i] + c);
-    }
-  if (part_ != nullptr) shared.count = 2 * part_->placesOfAll;
-  auto solver = part_ != nullptr ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_,
-                                                distributedFrom_)
-                                 : engine(body_.pattern(), contact_.equations);
-  solver->use(threads_);
-  return solver;
-}
-
-void CondensedBody::linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law) {
+void CondensedBody::linearise(const Matrix* explicitStrain, BodyIterate& iterate, const BodyLaw& law) {
   iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
   std::mutex lock;
   Worst change;
   forEachBlock(body_.points(), threads_, [&](int begin, int end) {
     stopIfInterrupted();
-    body_.strain(iterate.increment, shift, iterate.strain, begin, end);
+    body_.strain(iterate.increment, explicitStrain, iterate.strain, begin, end);
     if (!law.inBlock) return;
     const LawReport report = law.inBlock(iterate, law_, begin, end);
     const std::scoped_lock locked(lock);
@@ -90,58 +64,42 @@ void CondensedBody::linearise(const Matrix* shift, BodyIterate& iterate, const B
     law_.elastic += report.elastic;
   });
   if (law.everywhere) law.everywhere(iterate, law_);
-  facts_.change = change.value();
+  stressChange_ = change.value();
 }
 
-CondensedBody::LawFacts CondensedBody::measured(const Matrix& stress0, const BodyIterate& iterate) const {
-  LawFacts facts;
-  facts.change = facts_.change;
-  facts.before = largestOf(stress0, threads_);
-  if (body_.material().stressScale() > 0) {
-    facts.stress = largestOf(iterate.stress, threads_);
-    return facts;
-  }
-  facts.predictor = largestOf(law_.predictor, threads_);
-  facts.modulus = largestOf(law_.moduli, threads_);
-  return facts;
-}
-
-CondensedBody::LawFacts CondensedBody::factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const {
-  LawFacts facts = measured(stress0, iterate);
-  facts.modulus = largestOf(law_.moduli, threads_);
-  facts.elastic = law_.elastic;
-  if (std::isnan(facts.change)) facts.change = std::numeric_limits<double>::infinity();
-  return facts;
-}
-
-void CondensedBody::take(const LawFacts& facts) {
-  facts_ = facts;
-  if (std::isinf(facts_.change)) facts_.change = std::numeric_limits<double>::quiet_NaN();
-  law_.elastic = static_cast<int>(facts.elastic);
-}
-
+// In plane strain and about an axis the trace of the strain is a difference of two components. What flowed at
+// constant volume leaves its rounding there, and elasticity makes a stress of it, which no solve takes away.
 double CondensedBody::residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
-  return facts_.change == 0 ? 0 : facts_.change / residualScale(stress0, iterate, motion);
+  constexpr Eigen::Index acrossPlane = 3;
+  constexpr Eigen::Index inSpace = 6;
+  constexpr double roundings = 2;  // one of each of the two
+  if (stressChange_ == 0) return 0;
+  double rounded = 0;
+  if (iterate.strain.rows() > acrossPlane && iterate.strain.rows() < inSpace && !body_.material().linear())
+    rounded = roundings * std::numeric_limits<double>::epsilon() * largestModulus() *
+              iterate.strain.row(acrossPlane).cwiseAbs().maxCoeff();
+  if (stressChange_ <= rounded) return 0;
+  return (stressChange_ - rounded) / residualScale(stress0, iterate, motion);
 }
 
 double CondensedBody::largestModulus() const {
-  return part_ != nullptr ? facts_.modulus : largestOf(law_.moduli, threads_);
+  return largestOf(law_.moduli, threads_);
 }
 
 double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
-  const LawFacts facts = part_ != nullptr ? facts_ : measured(stress0, iterate);
+  const double before = largestOf(stress0, threads_);
   // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
   if (const double scale = body_.material().stressScale(); scale > 0)
-    return std::max({scale, facts.before, facts.stress});
+    return std::max({scale, before, largestOf(iterate.stress, threads_)});
   // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14
   // of E |du|/L.
   constexpr double rigidPart = 1e-4;
-  const double rigid = facts.modulus * motion / body_.extent();
-  return std::max({facts.before, facts.predictor, rigidPart * rigid});
+  const double rigid = largestModulus() * motion / body_.extent();
+  return std::max({before, largestOf(law_.predictor, threads_), rigidPart * rigid});
 }
 
-std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const BodyIterate& iterate,
-                                               double motion) const {
+std::pair<int, double> CondensedBody::worstPoint(const Matrix& stress0, const BodyIterate& iterate,
+                                                 double motion) const {
   int point = -1;
   double largest = 0;
   for (int i = 0; i < body_.points(); ++i) {
@@ -172,7 +130,6 @@ CondensedBody::Factors CondensedBody::factorise() {
   const bool elastic = this->elastic();
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
   Factors result;
-  result.begun = true;
   result.changed = !(std::exchange(counted_, false) && elastic);
   elasticFactors_ = elastic;
   schurFactor_.clear();
@@ -182,14 +139,8 @@ CondensedBody::Factors CondensedBody::factorise() {
     return result;
   }
   factorised_ = solver_->factorise(values_);
-  if (part_ == nullptr) useSchurComplement(result);
+  useSchurComplement(result);
   return result;
-}
-
-void CondensedBody::join(Factors& factors) {
-  if (!factors.begun) return;
-  factorised_ = solver_->join(factorised_);
-  useSchurComplement(factors);
 }
 
 void CondensedBody::useSchurComplement(Factors& factors) {
@@ -197,7 +148,7 @@ void CondensedBody::useSchurComplement(Factors& factors) {
                        (engine_ == LinearEngine::multifrontal && !body_.material().symmetricTangent()))) {
     // UMFPACK pivots in the whole matrix.
     useNextEngine();
-    factorised_ = solver_->join(solver_->factorise(values_));
+    factorised_ = solver_->factorise(values_);
   }
   if (!factorised_)
     factors.failure = "body " + body_.name() + ": its tangent is singular with its contact nodes held";
@@ -207,8 +158,7 @@ void CondensedBody::useSchurComplement(Factors& factors) {
   Matrix S = solver_->takeSchurComplement();
   if (contact_.R.cols() > 0) {
     const auto entries = static_cast<Eigen::Index>(values_.size());
-    double stiffness = largestOf(Eigen::Map<const Matrix>(values_.data(), 1, entries), threads_);
-    if (part_ != nullptr) ranks_->largest(&stiffness, 1);
+    const double stiffness = largestOf(Eigen::Map<const Matrix>(values_.data(), 1, entries), threads_);
     S.noalias() += stiffness * contact_.R * contact_.R.transpose();
   }
   const bool symmetric = body_.material().symmetricTangent();
@@ -242,7 +192,7 @@ void CondensedBody::useNextEngine() {
   engine_ = engine_ == LinearEngine::single ? LinearEngine::multifrontal : LinearEngine::suitesparse;
   ++enginesGivenUp_;
   if (whole_ || body_.rigid()) return;
-  solver_ = newSolver();
+  solver_ = newSolver(engine_, body_.pattern(), contact_.equations, threads_);
   factorised_ = false;
 }
 
@@ -252,48 +202,24 @@ Vector CondensedBody::solveSchur(const Vector& f) const {
   return x;
 }
 
-Vector CondensedBody::leftOver(const Vector& load, const Matrix& stress) {
-  if (part_ == nullptr) return load - body_.internalForce(stress);
-  ownForce_ = body_.internalForce(stress);
-  return load;
-}
-
-void CondensedBody::condense(const Vector& force) {
+Vector CondensedBody::condense(const Vector& force) {
   if (body_.rigid()) {
     contactForce_ = contact_.motions.transpose() * force;
-    return;
+    return softnessOf(body_) * (contact_.R * contactForce_);
   }
-  if (part_ != nullptr) {
-    ownForce_ = -ownForce_;
-    for (int node = 0; node < body_.nodes(); ++node)
-      if (part_->owned[node] != 0) ownForce_.segment<2>(2 * node) += force.segment<2>(2 * node);
-  }
-  residual_ = body_.gather(part_ != nullptr ? ownForce_ : force);
+  residual_ = body_.gather(force);
   solver_->condense(residual_);
-}
-
-Vector CondensedBody::joinCondensed() {
-  if (body_.rigid()) return softnessOf(body_) * (contact_.R * contactForce_);
-  solver_->joinCondensed(residual_);
   contactForce_ = residual_(contact_.equations);
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
 }
 
-void CondensedBody::moveContact(const Vector& forceChange, const Vector& z) {
-  if (body_.rigid()) {
-    residual_ = contact_.motions * z;
-    return;
-  }
+Vector CondensedBody::expand(const Vector& forceChange, const Vector& z) {
+  if (body_.rigid()) return contact_.motions * z;
   if (!contact_.none()) {
     Vector x = solveSchur(contactForce_ - contact_.C.transpose() * forceChange);
     if (contact_.R.cols() > 0) x += contact_.R * (z - contact_.R.transpose() * x);
     residual_(contact_.equations) = x;
   }
-  solver_->expandJoined(residual_);
-}
-
-Vector CondensedBody::expand() {
-  if (body_.rigid()) return residual_;
   solver_->expand(residual_);
   return body_.spread(residual_);
 }

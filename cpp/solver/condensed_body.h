@@ -27,7 +27,7 @@ struct ContactDofs {
   ContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
 
   /// Takes the rows of interfaces that have followed the bodies.
-  void takeRows(const Model& model, int body, const std::vector<int>& firstRow);
+  void updateConstraints(const Model& model, int body, const std::vector<int>& firstRow);
 
   std::vector<int> equations;     ///< of the contact dofs; all of a line that may touch anywhere
   Eigen::SparseMatrix<double> C;  ///< contact conditions x contact dofs
@@ -36,18 +36,16 @@ struct ContactDofs {
 
   /// Whether no condition acts on the body.
   [[nodiscard]] bool none() const { return equations.empty(); }
-  /// The rigid motion with these coefficients, in words. Collective.
-  [[nodiscard]] std::string describe(const Model& model, int body, const Vector& z) const;
+  /// The rigid motion with these coefficients, in words.
+  [[nodiscard]] std::string describe(const Body& body, const Vector& z) const;
   /// Work of nodal forces (dofs) on the rigid motions: what only contact can balance. Stresses do none.
   /// Forces that balance each other but for rounding give zero.
-  /// \param load  complete at all nodes
-  [[nodiscard]] Vector rigidForce(const Model& model, int body, const Vector& load) const;
+  [[nodiscard]] Vector rigidForce(const Vector& load) const;
 
  private:
   void findEquations(const Model& model, int body, const std::vector<int>& firstRow);
   void findMotions(const Model& model, int body);
 
-  Matrix basis_;             ///< of the motions by those of rigidModes()
   std::vector<int> column_;  ///< of C, by equations of the body; -1: none
 };
 
@@ -71,30 +69,18 @@ class CondensedBody {
   [[nodiscard]] ContactDofs& contact() { return contact_; }
 
   /// The strain of the iterate, and the law there.
-  void linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
-  /// What a part has found where it was linearised, which is to become what all have; the largest each.
-  struct LawFacts {
-    double change = 0;     ///< of stress; infinite for NaN [Pa]
-    double predictor = 0;  ///< a component [Pa]
-    double modulus = 0;    ///< [Pa]
-    double before = 0;     ///< stress at the start of the step [Pa]
-    double stress = 0;     ///< of the iterate [Pa]
-    double elastic = 0;    ///< points that are: their number
-  };
-  [[nodiscard]] LawFacts factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const;
-  void take(const LawFacts& facts);
+  void linearise(const Matrix* explicitStrain, BodyIterate& iterate, const BodyLaw& law);
   /// The residual of what was linearised, scaled [-].
   /// \param motion  the largest of any body: contact hands on what its rounding strains [m]
   [[nodiscard]] double residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
-  /// Whether all points of all ranks are elastic.
-  [[nodiscard]] bool elastic() const { return law_.elastic == allPoints_; }
-  /// Of all ranks.
+  /// Whether all points are elastic.
+  [[nodiscard]] bool elastic() const { return law_.elastic == body_.points(); }
   [[nodiscard]] double largestModulus() const;
-  /// The point of this rank whose stress is furthest off the law as last linearised, and by how much [-]; -1
+  /// The point whose stress is furthest off the law as last linearised, and by how much [-]; -1
   /// for none.
-  [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate,
-                                                double motion) const;
+  [[nodiscard]] std::pair<int, double> worstPoint(const Matrix& stress0, const BodyIterate& iterate,
+                                                  double motion) const;
   /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last
   /// linearisation, over what residuals are measured against [-].
   [[nodiscard]] double rounding(const Matrix& stress0, const BodyIterate& iterate, double motion,
@@ -104,31 +90,21 @@ class CondensedBody {
   struct Factors {
     std::string failure;   ///< why there are none
     bool changed = false;  ///< whether it was any work that counts
-    bool begun = false;    ///< whether there is anything to join
   };
   /// Factorises the tangent of the last linearisation, unless that and the one factorised before are both of
-  /// a body in which nothing flows. A rank begins with that for its part.
+  /// a body in which nothing flows.
   Factors factorise();
   /// The tangent that was factorised last, as values of the body's pattern.
   [[nodiscard]] const std::vector<double>& tangent() const { return values_; }
-  /// The remaining work for parts. Collective.
-  void join(Factors& factors);
   /// Whether points began or ceased to flow in the linearisations since.
   [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }
   /// W += C S^-1 C'.
   void addCompliance(Matrix& W) const;
-  /// A load (dofs) less the forces of a stress. Of a part these forces are kept for condense(), as what is
-  /// added to the load meanwhile is that of all ranks.
-  [[nodiscard]] Vector leftOver(const Vector& load, const Matrix& stress);
-  /// Takes nodal forces (dofs): those of leftOver(), and what has been added.
-  void condense(const Vector& force);
-  /// \returns S^-1 times what they are on the contact dofs. Collective.
-  Vector joinCondensed();
-  /// Finds the displacement under these and a change of the contact forces, with rigid motions `z` of this
-  /// body: where it is in contact, and where ranks share it. Collective.
-  void moveContact(const Vector& forceChange, const Vector& z);
-  /// \returns it everywhere (dofs); of a part before it is completed at its nodes.
-  Vector expand();
+  /// Takes nodal forces (dofs). \returns S^-1 times what they are on the contact dofs.
+  Vector condense(const Vector& force);
+  /// The displacement (dofs) under these and a change of the contact forces, with rigid motions `z` of this
+  /// body.
+  Vector expand(const Vector& forceChange, const Vector& z);
 
   /// From now on double precision; where that was in use, CHOLMOD or UMFPACK.
   void useNextEngine();
@@ -143,8 +119,6 @@ class CondensedBody {
   /// What stresses are measured against.
   [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] Vector solveSchur(const Vector& f) const;
-  [[nodiscard]] std::unique_ptr<CondensingSolver> newSolver() const;
-  [[nodiscard]] LawFacts measured(const Matrix& stress0, const BodyIterate& iterate) const;
   void useSchurComplement(Factors& factors);
 
   const Body& body_;
@@ -152,12 +126,8 @@ class CondensedBody {
   LinearEngine engine_;
   int enginesGivenUp_ = 0;
   bool reduce_;
-  int distributedFrom_;
   bool whole_;
   Threads& threads_;
-  const BodyPart* part_ = nullptr;  ///< where the body is one
-  Ranks* ranks_ = nullptr;
-  int allPoints_;
   std::unique_ptr<CondensingSolver> solver_;  ///< none where the body is whole
   std::vector<double> values_;                ///< of the tangent
   bool factorised_ = false;
@@ -165,9 +135,8 @@ class CondensedBody {
   bool elasticFactors_ = false;
   bool counted_ = false;
   Linearisation law_;
-  LawFacts facts_;
+  double stressChange_ = 0;  ///< by the law as last linearised; NaN where it has none [Pa]
   DenseFactor schurFactor_;  ///< of S
-  Vector ownForce_;          ///< of the triangles of a part (dofs)
   Vector residual_;      ///< right-hand side over equations, condensed in place; of a rigid body its motion
   Vector contactForce_;  ///< its part on the contact dofs
 };

@@ -72,7 +72,7 @@ void forEachEquation(const Model& model, int body, const std::vector<int>& first
 
 ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
   findEquations(model, body, firstRow);
-  takeRows(model, body, firstRow);
+  updateConstraints(model, body, firstRow);
   findMotions(model, body);
 }
 
@@ -97,7 +97,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
   forEachEquation(model, body, firstRow, [&](int, int equation, double) { add(equation); });
 }
 
-void ContactDofs::takeRows(const Model& model, int body, const std::vector<int>& firstRow) {
+void ContactDofs::updateConstraints(const Model& model, int body, const std::vector<int>& firstRow) {
   int conditions = firstRow.back();
   for (const ContactInterface& interface : model.interfaces)
     conditions += interface.hasFriction() ? interface.rows() : 0;
@@ -110,44 +110,31 @@ void ContactDofs::takeRows(const Model& model, int body, const std::vector<int>&
 
 void ContactDofs::findMotions(const Model& model, int body) {
   const Body& of = model.bodies[body];
-  motions = model.inParts() ? model.parts[body].motions : rigidModes(of);
+  motions = rigidModes(of);
   R.resize(static_cast<Eigen::Index>(equations.size()), motions.cols());
   for (Eigen::Index i = 0; i < motions.cols(); ++i)
     R.col(i) = (of.rigid() ? Vector(motions.col(i)) : of.gather(motions.col(i)))(equations);
-  basis_.setIdentity(motions.cols(), motions.cols());
   if (motions.cols() == 0) return;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(R.transpose() * R));
   const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
   if (eigen.eigenvalues()[0] <= motionTolerance * largest)
     throw UnheldBodyError("body " + of.name() + ": nothing holds its " +
-                          describe(model, body, eigen.eigenvectors().col(0)) +
-                          "; a support or a contact would");
+                          describe(of, eigen.eigenvectors().col(0)) + "; a support or a contact would");
   const Matrix T = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-  basis_ = T;
   motions *= T;
   R *= T;
 }
 
-std::string ContactDofs::describe(const Model& model, int body, const Vector& z) const {
-  if (!model.inParts()) return describeRigidMotion(model.bodies[body], motions * z);
-  const Body* whole = model.parts[body].whole;
-  return textOfFirst(*model.ranks,
-                     whole != nullptr ? describeRigidMotion(*whole, rigidModes(*whole) * (basis_ * z)) : "");
+std::string ContactDofs::describe(const Body& body, const Vector& z) const {
+  return describeRigidMotion(body, motions * z);
 }
 
-Vector ContactDofs::rigidForce(const Model& model, int body, const Vector& load) const {
+Vector ContactDofs::rigidForce(const Vector& load) const {
   constexpr double roundingOfTotals = 1e-14;
-  Vector own = load;
-  for (Eigen::Index dof = 0; dof < own.size() && model.inParts(); ++dof)
-    if (model.parts[body].owned[dof / 2] == 0) own[dof] = 0;
-  const Eigen::Index n = motions.cols();
-  Vector sums(2 * n);
-  sums.head(n) = motions.transpose() * own;
-  sums.tail(n) = motions.cwiseAbs().transpose() * own.cwiseAbs();
-  model.sum(sums.data(), sums.size());
-  Vector force = sums.head(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (std::abs(force[i]) <= roundingOfTotals * sums[n + i]) force[i] = 0;
+  Vector force = motions.transpose() * load;
+  const Vector total = motions.cwiseAbs().transpose() * load.cwiseAbs();
+  for (Eigen::Index i = 0; i < force.size(); ++i)
+    if (std::abs(force[i]) <= roundingOfTotals * total[i]) force[i] = 0;
   return force;
 }
 

@@ -18,7 +18,7 @@ ContactSets::ContactSets(const ContactProblem& problem, const std::vector<char>&
       balance_(balance),
       z0_(Vector::Zero(balance.size())) {}
 
-void ContactSets::centre(const Vector& z0) {
+void ContactSets::setProximalPoint(const Vector& z0) {
   z0_ = z0;
   pivotsLeft_ = 20 * static_cast<int>(slack_.size()) + 100;
 }
@@ -43,23 +43,23 @@ bool ContactSets::grow(int condition, ContactSolution& solution, Growth& growth)
   return true;
 }
 
-ContactSets::Signs ContactSets::signsOf(const ContactSolution& solution) const {
-  Signs signs{open_, p0_ + solution.change, {}, {}};
-  Vector& s = signs.slack;
-  Vector& p = signs.force;
+ContactSets::Violations ContactSets::violationsOf(const ContactSolution& solution) const {
+  Violations violations{open_, p0_ + solution.change, {}, {}};
+  Vector& s = violations.slack;
+  Vector& p = violations.force;
   const Vector depth = s.cwiseQuotient(diagonal_);
   const Noise least = noise(solution);
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (idle_[i] != 0) continue;
-    if (solution.active[i] != 0 && !(p[i] >= -least.force)) signs.pulls.push_back(static_cast<int>(i));
+    if (solution.active[i] != 0 && !(p[i] >= -least.force)) violations.tension.push_back(static_cast<int>(i));
     if (solution.active[i] == 0 && !(depth[i] >= -least.depth[i]))
-      signs.overlaps.push_back(static_cast<int>(i));
+      violations.penetration.push_back(static_cast<int>(i));
   }
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (solution.active[i] != 0) s[i] = 0;
     p[i] = std::max(p[i], 0.0);
   }
-  return signs;
+  return violations;
 }
 
 double ContactSets::residual(const ContactSolution& solution) const {
@@ -78,25 +78,25 @@ double ContactSets::sizeOf(const ContactSolution& solution) const {
   return largest;
 }
 
-Vector ContactSets::usualForces(const ContactSolution& solution) const {
+Vector ContactSets::forceScales(const ContactSolution& solution) const {
   constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
-  Vector usual = Vector::Constant(slack_.size(), problem_.forceScale);
+  Vector scales = Vector::Constant(slack_.size(), problem_.forceScale);
   const double largest = slack_.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < usual.size(); ++i)
+  for (Eigen::Index i = 0; i < scales.size(); ++i)
     if (solution.active[i] != 0 && idle_[i] == 0)
-      usual[i] = std::max(usual[i], roundingOfGaps * largest / diagonal_[i]);
-  return usual;
+      scales[i] = std::max(scales[i], roundingOfGaps * largest / diagonal_[i]);
+  return scales;
 }
 
-double ContactSets::imbalance(const ContactSolution& solution, const Vector& usual) const {
+double ContactSets::imbalance(const ContactSolution& solution, const Vector& scales) const {
   const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + usual;
+  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + scales;
   const double scale =
       balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
   return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
 }
 
-bool ContactSets::leaves(const ContactSolution& solution) const {
+bool ContactSets::isUnbounded(const ContactSolution& solution) const {
   constexpr double negligible = 1e-6;
   const Vector z = rigid(solution);
   const Vector closing = problem_.G * z;

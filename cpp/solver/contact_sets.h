@@ -36,8 +36,7 @@ void repeatProximal(
   }
 }
 
-/// The stiffness of a proximal term on rigid motions: where a body has to travel until contact closes, so
-/// small that the load takes it there.
+/// The stiffness of the proximal term on rigid motions: where a gap is open, the load can close it.
 /// \param open  the widest gap
 double proximalStiffness(double stiffness, double load, double open);
 
@@ -48,7 +47,7 @@ class ContactSets {
   virtual ~ContactSets() = default;
 
   /// Sets z0, and how many solves are allowed until the next call.
-  void centre(const Vector& z0);
+  void setProximalPoint(const Vector& z0);
   /// Weakens the proximal term.
   void soften();
 
@@ -58,17 +57,17 @@ class ContactSets {
   virtual bool refactor(const std::vector<char>& active) = 0;
   [[nodiscard]] virtual bool fresh() const = 0;
 
-  /// Of the set that was solved on last, and what is wrong with it.
-  struct Signs {
-    Vector slack;               ///< 0 on the set
-    Vector force;               ///< p, not below 0
-    std::vector<int> pulls;     ///< active, p < 0
-    std::vector<int> overlaps;  ///< inactive, s < 0
+  /// The solution on the last set, and the conditions that it violates.
+  struct Violations {
+    Vector slack;                  ///< 0 on the set
+    Vector force;                  ///< p, not below 0
+    std::vector<int> tension;      ///< active, p < 0
+    std::vector<int> penetration;  ///< inactive, s < 0
   };
-  /// Judged against rounding, slacks as the forces that would close them.
-  [[nodiscard]] Signs signsOf(const ContactSolution& solution) const;
-  /// By how much all forces and slacks grow with the force of one inactive condition, the active ones staying
-  /// closed [-, s/p].
+  /// Violations beyond rounding; slacks count as the forces that would close them.
+  [[nodiscard]] Violations violationsOf(const ContactSolution& solution) const;
+  /// Derivatives of all forces and slacks by the force of one inactive condition, the active ones kept closed
+  /// [-, s/p].
   struct Growth {
     Vector force, slack;
   };
@@ -89,12 +88,12 @@ class ContactSets {
   [[nodiscard]] bool redundant() const { return redundant_; }
   /// Whether all work or all solves that are allowed were done.
   [[nodiscard]] virtual bool capped() const { return pivotsLeft_ <= 0; }
-  /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
-  [[nodiscard]] double imbalance(const ContactSolution& solution, const Vector& usual) const;
-  /// Contact forces of the step before, and on closed conditions those that the rounding of gaps makes.
-  [[nodiscard]] Vector usualForces(const ContactSolution& solution) const;
-  /// Whether the load drives the bodies along a motion that opens contact or slides along it.
-  [[nodiscard]] bool leaves(const ContactSolution& solution) const;
+  /// The part of the balance that the proximal term carries, over the contact forces and `scales` [-].
+  [[nodiscard]] double imbalance(const ContactSolution& solution, const Vector& scales) const;
+  /// Per condition, the contact force of the step before, or that of the rounding of gaps where it is larger.
+  [[nodiscard]] Vector forceScales(const ContactSolution& solution) const;
+  /// Whether the load drives the bodies along a rigid motion that no contact resists.
+  [[nodiscard]] bool isUnbounded(const ContactSolution& solution) const;
   /// The rigid motions of a solution, without what is none.
   [[nodiscard]] virtual Vector rigid(const ContactSolution& solution) const { return solution.rigid; }
 
@@ -146,9 +145,9 @@ RigidMotions rigidMotionsOn(const std::vector<char>& active, const Matrix& G);
 /// \param active  the set to begin with. \throws Interrupted
 ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& active);
 
-/// The rigid motions that take away the gaps and overlaps of the conditions to begin with (of all, where
-/// there are none) as far as they can, first: beside stiff bodies these are so many forces that those of the
-/// load would be lost in their rounding. They are taken from the slack.
+/// Takes from the slack the rigid motions that close the gaps of `active` (of all conditions, where it is
+/// empty) in the least squares. Beside stiff bodies these gaps stand for so large forces that those of the
+/// load would be lost in their rounding. \returns the motions
 Vector moveRigidBodiesIntoContact(const Matrix& G, const std::vector<char>& active, Vector& slack);
 
 /// Conditions that no free motion can change: both sides are held there.

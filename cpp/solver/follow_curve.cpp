@@ -8,7 +8,7 @@
 namespace mortier {
 namespace {
 
-using Place = ViscosityWalk::Place;
+using Place = ViscosityContinuation::Place;
 
 constexpr double roughly = 1e-5;  // material residual of a place on the way
 constexpr int lastIterations = 20;
@@ -108,7 +108,7 @@ class Curve {
     double sum = 0;
     for (size_t i = 0; i < std::min(a.response.size(), b.response.size()); ++i)
       sum += a.response[i].stress.cwiseProduct(b.response[i].stress).sum() / (unit_[i] * unit_[i]);
-    return a.decades * b.decades + system_.model().sum(sum);
+    return a.decades * b.decades + sum;
   }
 
   /// The direction at a place with this tangent, forwards as `along` is.
@@ -140,13 +140,13 @@ class Curve {
 
 }  // namespace
 
-StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityWalk& walk, int maxIterations,
-                        Iterate& solution) {
+StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityContinuation& continuation,
+                        int maxIterations, Iterate& solution) {
   constexpr double longest = 20;
   constexpr double tiniest = 1e-9;  // length of a step
   Curve curve(system, step);
   StepOutcome& total = curve.total;
-  Place at = walk.startOfCurve();
+  Place at = continuation.startOfCurve();
   Direction along;
   if (!curve.solve(roughly, lastIterations, at) || !curve.directionAt(at, along)) return total;
   for (double length = 0.5; total.iterations < maxIterations && length > tiniest;) {
@@ -169,7 +169,8 @@ StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityWalk& wal
       length /= 3;
       continue;
     }
-    if ((along.decades > 0) != (correction.direction.decades > 0)) walk.turns.push_back(-at.decades);
+    if ((along.decades > 0) != (correction.direction.decades > 0))
+      continuation.turningPoints.push_back(-at.decades);
     at = std::move(place);
     along = std::move(correction.direction);
     if (correction.iterations == 1) length *= 2;
@@ -181,46 +182,46 @@ StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityWalk& wal
 }
 
 // Less than half a decade a stage: longer ones jump off the curve.
-ViscosityWalk::ViscosityWalk(const Model& model, const Step& step)
-    : pace(0.4), tolerance(0.3), roughest(0.3) {
+ViscosityContinuation::ViscosityContinuation(const Model& model, const Step& step)
+    : stepSize(0.4), tolerance(0.3), toleranceAtStart(0.3) {
   constexpr double firstStiffness = 0.3;
-  constexpr double firstLower = 2;
+  constexpr double firstReduction = 2;
   double stiffness = 0;
   for (const Body& body : model.bodies) {
     stiffness = std::max(stiffness, body.material().stiffness(step.data.weight));
-    if (!body.material().linear() && body.material().stressScale() == 0) lower = firstLower;
+    if (!body.material().linear() && body.material().stressScale() == 0) startReduction = firstReduction;
   }
-  places.push_back({-(std::log10(stiffness / firstStiffness) + pace), startingIterate(step.state0)});
+  places.push_back({-(std::log10(stiffness / firstStiffness) + stepSize), startingIterate(step.state0)});
 }
 
-ViscosityWalk::Place ViscosityWalk::startOfCurve() const {
+ViscosityContinuation::Place ViscosityContinuation::startOfCurve() const {
   constexpr double careful = 1e-3;
-  if (roughest <= careful && places.size() > 1) return places.back();
+  if (toleranceAtStart <= careful && places.size() > 1) return places.back();
   Place place = places.front();
-  place.decades = std::min(0.0, place.decades + pace);
+  place.decades = std::min(0.0, place.decades + stepSize);
   return place;
 }
 
-StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& walk, int maxIterations,
-                           Iterate& solution) {
+StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityContinuation& continuation,
+                           int maxIterations, Iterate& solution) {
   constexpr double closer = 1.5;
-  constexpr double finestPace = 0.02;
+  constexpr double finestStep = 0.02;
   constexpr int stageIterations = 4;
   constexpr double finestTolerance = 1e-8;
   constexpr int lastIterations = 20;
   constexpr int stagesBack = 2;
 
-  std::vector<ViscosityWalk::Place>& places = walk.places;
+  std::vector<ViscosityContinuation::Place>& places = continuation.places;
   StepOutcome total;
   while (total.iterations < maxIterations) {
-    ViscosityWalk::Place place = places.back();
-    place.decades = std::min(0.0, place.decades + walk.pace);
+    ViscosityContinuation::Place place = places.back();
+    place.decades = std::min(0.0, place.decades + continuation.stepSize);
     const bool last = place.decades == 0;
     const int iterations =
         std::min(last ? lastIterations : stageIterations, maxIterations - total.iterations);
     const int before = total.iterations;
     total.follow(newton(system, step, step.data.weight * std::pow(10, place.decades),
-                        {iterations, last ? system.options().tolerance : walk.tolerance, true},
+                        {iterations, last ? system.options().tolerance : continuation.tolerance, true},
                         place.iterate));
     if (total.converged()) {
       if (last) {
@@ -232,15 +233,15 @@ StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& 
       continue;
     }
     if (total.iterations == before) ++total.iterations;  // not even begun: that must end as well
-    if (places.size() == 1 && walk.lower > 0) {
-      places.front().decades -= walk.lower;
-      walk.lower *= 2;
+    if (places.size() == 1 && continuation.startReduction > 0) {
+      places.front().decades -= continuation.startReduction;
+      continuation.startReduction *= 2;
       continue;
     }
-    walk.tolerance = std::max(finestTolerance, walk.tolerance / 10);
-    walk.pace = std::max(finestPace, walk.pace / closer);
+    continuation.tolerance = std::max(finestTolerance, continuation.tolerance / 10);
+    continuation.stepSize = std::max(finestStep, continuation.stepSize / closer);
     for (int i = 0; i < stagesBack && places.size() > 1; ++i) places.pop_back();
-    if (places.size() == 1) walk.roughest = walk.tolerance;
+    if (places.size() == 1) continuation.toleranceAtStart = continuation.tolerance;
   }
   if (!total.unheld())
     total.fail(Reason::unconverged, "the viscosity could not be lowered to that of the step in " +

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/interrupt.h"
@@ -20,24 +22,21 @@ signed char signOf(double value) {
 
 /// How many conditions differ.
 int distance(const FrictionSets& a, const FrictionSets& b) {
-  int count = 0;
-  for (size_t i = 0; i < a.closed.size(); ++i) count += a.closed[i] != b.closed[i] ? 1 : 0;
-  for (size_t k = 0; k < a.slip.size(); ++k) count += a.slip[k] != b.slip[k] ? 1 : 0;
-  return count;
+  const auto differing = [](const auto& x, const auto& y) {
+    return std::inner_product(x.begin(), x.end(), y.begin(), 0, std::plus<>(), std::not_equal_to<>());
+  };
+  return differing(a.closed, b.closed) + differing(a.slip, b.slip);
 }
 
 /// The first condition that differs goes over from one to the other.
 void changeFirst(FrictionSets& sets, const FrictionSets& next) {
-  for (size_t i = 0; i < sets.closed.size(); ++i)
-    if (sets.closed[i] != next.closed[i]) {
-      sets.closed[i] = next.closed[i];
-      return;
-    }
-  for (size_t k = 0; k < sets.slip.size(); ++k)
-    if (sets.slip[k] != next.slip[k]) {
-      sets.slip[k] = next.slip[k];
-      return;
-    }
+  const auto change = [](auto& from, const auto& to) {
+    const auto [at, there] = std::mismatch(from.begin(), from.end(), to.begin());
+    if (at == from.end()) return false;
+    *at = *there;
+    return true;
+  };
+  if (!change(sets.closed, next.closed)) change(sets.slip, next.slip);
 }
 
 }  // namespace
@@ -103,92 +102,109 @@ HeldConditions FrictionSystem::heldOn(const FrictionSets& sets) const {
   return held;
 }
 
-Matrix FrictionSystem::matrix(const HeldConditions& held, double unit, double softness,
-                              double stiffness) const {
-  const auto n = static_cast<Eigen::Index>(held.rows.size());
-  const Eigen::Index motions = problem_.G.cols();
+HeldSystem::HeldSystem(const ContactProblem& problem, HeldConditions held, double softness, double stiffness,
+                       bool transposed)
+    : held_(std::move(held)) {
+  const std::vector<Eigen::Index>& rows = held_.rows;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index motions = problem.G.cols();
+  if (motions > 0) unit_ = problem.W.diagonal().maxCoeff() / problem.G.cwiseAbs().maxCoeff();
   Matrix A(n + motions, n + motions);
-  A.topLeftCorner(n, n) = problem_.W(held.rows, held.rows);
+  A.topLeftCorner(n, n) = problem.W(rows, rows);
   A.topLeftCorner(n, n).diagonal().array() += softness;
   if (motions > 0) {
-    A.topRightCorner(n, motions) = -unit * problem_.G(held.rows, Eigen::all);
-    A.bottomLeftCorner(motions, n) = unit * problem_.G(held.rows, Eigen::all).transpose();
-    A.bottomRightCorner(motions, motions) = unit * unit * stiffness * Matrix::Identity(motions, motions);
+    A.topRightCorner(n, motions) = -unit_ * problem.G(rows, Eigen::all);
+    A.bottomLeftCorner(motions, n) = unit_ * problem.G(rows, Eigen::all).transpose();
+    A.bottomRightCorner(motions, motions) = unit_ * unit_ * stiffness * Matrix::Identity(motions, motions);
   }
-  for (const auto& [row, leader, part] : held.followers) {
-    A.col(leader).head(n) += part * problem_.W(held.rows, row);
-    if (motions > 0) A.col(leader).tail(motions) += part * unit * problem_.G.row(row).transpose();
+  for (const auto& [row, leader, part] : held_.followers) {
+    A.col(leader).head(n) += part * problem.W(rows, row);
+    if (motions > 0) A.col(leader).tail(motions) += part * unit_ * problem.G.row(row).transpose();
   }
-  return A;
+  if (transposed) {  // which has G with the signs exchanged
+    A.transposeInPlace();
+    unit_ = -unit_;
+  }
+  factor_.factorise(std::move(A), false);
 }
 
-Vector FrictionSystem::motionOf(TwoPartSums start, const TwoPartVector& x, const TwoPartVector& z) const {
-  start.add(problem_.W, x);
-  start.add(-problem_.G, z);
-  return start.value();
+void HeldSystem::solve(Vector& f, Vector& h) const {
+  Matrix x(f.size() + h.size(), 1);
+  x << f, unit_ * h;
+  factor_.solve(x);
+  f = x.col(0).head(f.size());
+  h = unit_ * x.col(0).tail(h.size());
 }
 
-Vector FrictionSystem::unbalanced(double part, const TwoPartVector& x, const TwoPartVector& z) const {
-  TwoPartSums sums(part * (springs_.load + springs_.stiffness * springs_.z0));
-  sums.add(-problem_.G.transpose(), x);
-  sums.add(-springs_.stiffness * Matrix::Identity(problem_.G.cols(), problem_.G.cols()), z);
-  return sums.value();
+std::optional<FrictionSolution> FrictionSystem::solve(const HeldSystem& equations, const FrictionSets& sets,
+                                                      double part, const TwoPartSums& start) const {
+  const Eigen::Index n = normals();
+  const auto& [held, followers] = equations.held();
+  const Matrix G = -problem_.G;
+  TwoPartVector x = TwoPartVector::zero(q_.size());
+  TwoPartVector z{part * springs_.z0, Vector::Zero(G.cols())};
+  for (Eigen::Index k = 0; k < q_.size() - n; ++k)
+    if (!sticks(sets, k)) x.high[n + k] = part * sets.slip[k] * law_.limit[k];
+  FrictionSolution result;
+  result.sets = sets;
+  result.index = equations.sign();
+  const auto evaluate = [&] {
+    TwoPartSums motion = start;
+    motion.add(problem_.W, x);
+    motion.add(G, z);
+    result.motion = motion.value();
+    result.force = x.value();
+  };
+  evaluate();
+  // Corrections go on until they are nothing beside the forces: signs that rounding decides are not those of
+  // one problem.
+  constexpr double enough = 1e-10;  // each is less by the square of that
+  constexpr double zero = 1e-26;
+  double largest = start.value().cwiseQuotient(compliance_).lpNorm<Eigen::Infinity>();
+  double last = std::numeric_limits<double>::infinity();
+  Vector change = Vector::Zero(q_.size());
+  while (true) {
+    TwoPartSums unbalanced(part * (springs_.load + springs_.stiffness * springs_.z0));
+    unbalanced.add(G.transpose(), x);
+    unbalanced.add(-springs_.stiffness * Matrix::Identity(G.cols(), G.cols()), z);
+    Vector forces = -result.motion(held);
+    Vector motions = unbalanced.value();
+    equations.solve(forces, motions);
+    change(held) = forces;
+    x += change;
+    z += motions;
+    for (const auto& [row, leader, mu] : followers) {
+      const Eigen::Index across = held[leader];
+      const DoubleDouble product = DoubleDouble::product(mu, x.high[across]);
+      const DoubleDouble sum =
+          DoubleDouble::sum(part * sets.slip[row - n] * law_.limit[row - n], product.high);
+      x.high[row] = sum.high;
+      x.low[row] = sum.low + product.low + mu * x.low[across];
+    }
+    evaluate();
+    const double correction = change.lpNorm<Eigen::Infinity>();
+    const double size = result.force.lpNorm<Eigen::Infinity>();
+    largest = std::max(largest, size);
+    if (!(correction > std::max(enough * size, zero * largest))) break;
+    if (!(correction < last / 2)) return std::nullopt;
+    last = std::isinf(last) ? std::max(correction, largest) : correction;
+  }
+  result.rigid = z.value();
+  return result;
 }
 
 std::optional<FrictionSolution> FrictionSystem::solveOn(const FrictionSets& sets) const {
-  const Eigen::Index motions = problem_.G.cols();
-  const double negligible = motions > 0 ? 1e-15 : 1e-12;  // as in ActiveFactor
+  const double negligible = problem_.G.cols() > 0 ? 1e-15 : 1e-12;  // as in ActiveFactor
   stopIfInterrupted();
-  const Eigen::Index n = normals();
-  TwoPartVector x = TwoPartVector::zero(q_.size());
-  TwoPartVector z{springs_.z0, Vector::Zero(motions)};
-  for (Eigen::Index k = 0; k < q_.size() - n; ++k)
-    if (!sticks(sets, k)) x.high[n + k] = sets.slip[k] * law_.limit[k];
-  const HeldConditions held = heldOn(sets);
-  const auto unknown = static_cast<Eigen::Index>(held.rows.size());
-  // The motions come last, in a unit in which G is as W.
-  const double unit = motions > 0 ? compliance_.maxCoeff() / problem_.G.cwiseAbs().maxCoeff() : 1;
-  FrictionSolution trial;
-  trial.sets = sets;
-  trial.force = x.value();
-  trial.motion = motionOf(TwoPartSums(q_), x, z);
-  if (unknown + motions == 0) return trial;
-  ++work_.solves;
-  DenseFactor factor;
-  if (!factor.factorise(matrix(held, unit, 0, springs_.stiffness), false) ||
-      !(factor.leastPivot() > negligible)) {
-    work_.singular = true;
-    return std::nullopt;
+  const HeldSystem equations(problem_, heldOn(sets), 0, springs_.stiffness);
+  work_.solves += equations.size() > 0 ? 1 : 0;
+  std::optional<FrictionSolution> trial;
+  if (equations.leastPivot() > negligible) {
+    work_.ambiguous = work_.ambiguous || equations.sign() < 0;
+    trial = solve(equations, sets, 1, TwoPartSums(q_));
   }
-  trial.index = factor.sign();
-  work_.ambiguous = work_.ambiguous || trial.index < 0;
-  // Corrections go on until they are nothing beside the forces: signs that rounding decides are not those of
-  // one problem.
-  Corrections corrections(q_.cwiseQuotient(compliance_).lpNorm<Eigen::Infinity>());
-  while (true) {
-    Matrix change(unknown + motions, 1);
-    change.topRows(unknown) = -trial.motion(held.rows);
-    if (motions > 0) change.bottomRows(motions) = unit * unbalanced(1, x, z);
-    factor.solve(change);
-    Vector all = Vector::Zero(q_.size());
-    all(held.rows) = change.col(0).head(unknown);
-    x += all;
-    z += unit * change.col(0).tail(motions);
-    for (const auto& [row, leader, part] : held.followers) {
-      const Eigen::Index across = held.rows[leader];
-      const DoubleDouble product = DoubleDouble::product(part, x.high[across]);
-      const DoubleDouble sum = DoubleDouble::sum(sets.slip[row - n] * law_.limit[row - n], product.high);
-      x.high[row] = sum.high;
-      x.low[row] = sum.low + product.low + part * x.low[across];
-    }
-    trial.force = x.value();
-    trial.motion = motionOf(TwoPartSums(q_), x, z);
-    if (!corrections.goOn(all.lpNorm<Eigen::Infinity>(), trial.force.lpNorm<Eigen::Infinity>())) break;
-  }
-  trial.rigid = z.value();
-  work_.singular = work_.singular || corrections.failed();
-  if (corrections.failed() || !trial.force.allFinite()) return std::nullopt;
-  return trial;
+  work_.singular = work_.singular || !trial;
+  return trial && trial->force.allFinite() ? trial : std::nullopt;
 }
 
 double FrictionSystem::bound(const FrictionSolution& trial, Eigen::Index tangential) const {

@@ -15,34 +15,6 @@
 
 namespace mortier {
 
-/// Corrections of a solution by residuals in twice the working precision.
-class Corrections {
- public:
-  /// \param cancels  the size of what cancels in the solution.
-  explicit Corrections(double cancels = 0) : largest_(cancels) {}
-
-  /// Takes the size of one and that of the solution. \returns whether another one is worth while.
-  bool goOn(double change, double size) {
-    constexpr double enough = 1e-10;  // each is less by the square of that
-    constexpr double zero = 1e-26;
-    largest_ = std::max(largest_, size);
-    if (!(change > std::max(enough * size, zero * largest_))) return false;
-    if (!(change < before_ / 2)) {
-      failed_ = true;
-      return false;
-    }
-    before_ = std::isinf(before_) ? std::max(change, largest_) : change;
-    return true;
-  }
-  /// Whether they do not become less: the matrix is singular to rounding.
-  [[nodiscard]] bool failed() const { return failed_; }
-
- private:
-  double largest_ = 0;
-  double before_ = std::numeric_limits<double>::infinity();
-  bool failed_ = false;
-};
-
 /// The conditions of given sets whose forces are unknown: closed ones and nodes that stick. The force of a
 /// slipping node follows that across it.
 struct HeldConditions {
@@ -55,6 +27,27 @@ struct HeldConditions {
   std::vector<Follower> followers = {};
 };
 
+/// The linear equations of the conditions held, factorised (dense_factor.h):
+///   W_held x - G_held z + softness x = f,   G_held' x + stiffness z = h,
+/// where a follower acts with its leader's x, or the transposed equations.
+class HeldSystem {
+ public:
+  HeldSystem(const ContactProblem& problem, HeldConditions held, double softness, double stiffness,
+             bool transposed = false);
+  /// f and h become x and z.
+  void solve(Vector& f, Vector& h) const;
+  [[nodiscard]] const HeldConditions& held() const { return held_; }
+  [[nodiscard]] Eigen::Index size() const { return factor_.rows(); }
+  /// 0 where the equations are singular.
+  [[nodiscard]] double leastPivot() const { return factor_.leastPivot(); }
+  [[nodiscard]] int sign() const { return factor_.sign(); }
+
+ private:
+  HeldConditions held_;
+  double unit_ = 1;  ///< of z, in which G is as W
+  DenseFactor factor_;
+};
+
 class FrictionSystem {
  public:
   /// \param q  (g, v) without forces. What is given by reference must outlive this.
@@ -65,6 +58,8 @@ class FrictionSystem {
 
   [[nodiscard]] const ContactProblem& problem() const { return problem_; }
   [[nodiscard]] const Springs& springs() const { return springs_; }
+  /// W_ii, 1 of conditions that no free motion changes.
+  [[nodiscard]] const Vector& compliance() const { return compliance_; }
   [[nodiscard]] FrictionWork& work() const { return work_; }
   [[nodiscard]] Eigen::Index normals() const { return problem_.normals(); }
   [[nodiscard]] const Vector& q() const { return q_; }
@@ -79,13 +74,11 @@ class FrictionSystem {
   [[nodiscard]] FrictionSets allHeld() const;
 
   [[nodiscard]] HeldConditions heldOn(const FrictionSets& sets) const;
-  /// Their linear equations, [W + softness I, -unit G; unit G', unit^2 stiffness I].
-  [[nodiscard]] Matrix matrix(const HeldConditions& held, double unit, double softness,
-                              double stiffness) const;
-
-  /// start + W x - G z, and part (load + stiffness z0) - G' x - stiffness z.
-  [[nodiscard]] Vector motionOf(TwoPartSums start, const TwoPartVector& x, const TwoPartVector& z) const;
-  [[nodiscard]] Vector unbalanced(double part, const TwoPartVector& x, const TwoPartVector& z) const;
+  /// Forces and motions on sets, under part of the load and of the limits; corrected by residuals in twice
+  /// the working precision. \param start  (g, v) without forces. \returns nothing where `equations`, those
+  /// of the sets, are singular but for rounding.
+  [[nodiscard]] std::optional<FrictionSolution> solve(const HeldSystem& equations, const FrictionSets& sets,
+                                                      double part, const TwoPartSums& start) const;
 
   /// Newton's method from `sets`. \returns the solution, or nothing where sets come back.
   std::optional<FrictionSolution> newton(FrictionSets sets) const;

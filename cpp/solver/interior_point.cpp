@@ -26,10 +26,6 @@ class Paths {
       if (stress0.size() > 0)
         overstress_ = std::max(overstress_, stress0.cwiseAbs().maxCoeff() / material.stressScale());
     }
-    points_ = model.sum(points_);
-    flow_ = model.largest(flow_);
-    yieldStrain_ = -model.largest(-yieldStrain_);
-    overstress_ = model.largest(overstress_);
   }
   /// `overstress` is counted in the stresses that are there, or the yield stress.
   void begin(double overstress) {
@@ -42,7 +38,7 @@ class Paths {
   [[nodiscard]] double complementarity() const {
     double sum = 0;
     for (const auto& path : paths_) sum += path ? path->complementarity() : 0;
-    return model_.sum(sum) / points_;
+    return sum / points_;
   }
 
  private:
@@ -93,7 +89,7 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
       if (paths[b])
         largest = std::min(largest, paths[b]->direct(next.bodies[b].strain - iterate.bodies[b].strain));
     }
-    return -model.largest(-largest);
+    return largest;
   };
   for (const double end : ends) {
     for (double mu = paths.complementarity(); mu > end * paths.yieldStrain(); mu = paths.complementarity()) {

@@ -51,23 +51,23 @@ void prescribe(const Model& model, const Step& step, Iterate& iterate) {
 void addThermalStrain(const Model& model, const State& state0, StepData& data) {
   if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.heated(); }))
     return;
-  const bool shifted = !data.shift.empty();
+  const bool shifted = !data.explicitStrain.empty();
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     data.thermal.push_back(body.heated()
                                ? Matrix(body.thermalStrain(data.time) - state0.bodies[b].thermalStrain)
                                : Matrix(Matrix::Zero(body.material().components(), body.points())));
     if (shifted)
-      data.shift[b] += data.thermal[b];
+      data.explicitStrain[b] += data.thermal[b];
     else
-      data.shift.push_back(data.thermal[b]);
+      data.explicitStrain.push_back(data.thermal[b]);
   }
 }
 
 void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate) {
   BodyIterate& unknowns = iterate.bodies[body];
   unknowns.strain.resizeLike(unknowns.stress);
-  model.bodies[body].strain(unknowns.increment, step.shift(body), unknowns.strain, 0,
+  model.bodies[body].strain(unknowns.increment, step.explicitStrain(body), unknowns.strain, 0,
                             model.bodies[body].points());
 }
 
@@ -124,15 +124,14 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
   return result;
 }
 
-std::vector<Vector> frictionWork(const State& state0, const Iterate& solution,
+std::vector<Vector> frictionWork(const std::vector<Vector>& friction0, const Iterate& solution,
                                  const std::vector<Vector>& slip0, const std::vector<Vector>& slip1) {
   std::vector<Vector> work;
   for (size_t k = 0; k < slip1.size(); ++k) {
     work.emplace_back(Vector::Zero(slip1[k].size()));
     for (Eigen::Index i = 0; i < slip1[k].size(); ++i)
       if (solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0)
-        work[k][i] =
-            (state0.frictionForce[k][i] * slip0[k][i] + solution.frictionForce[k][i] * slip1[k][i]) / 2;
+        work[k][i] = (friction0[k][i] * slip0[k][i] + solution.frictionForce[k][i] * slip1[k][i]) / 2;
   }
   return work;
 }
@@ -148,9 +147,7 @@ std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& ga
   return result;
 }
 
-namespace {
-
-bool flowsHere(const Model& model, const State& state) {
+bool flows(const Model& model, const State& state) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Material& material = model.bodies[b].material();
     const Matrix strain = strainOfLaw(material, state.bodies[b]);
@@ -158,12 +155,6 @@ bool flowsHere(const Model& model, const State& state) {
       if (material.flows(state.bodies[b].stress, i, &strain)) return true;
   }
   return false;
-}
-
-}  // namespace
-
-bool flows(const Model& model, const State& state) {
-  return model.any(flowsHere(model, state));
 }
 
 }  // namespace mortier

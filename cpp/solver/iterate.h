@@ -11,11 +11,11 @@ namespace mortier {
 
 /// What is asked of a step.
 struct StepData {
-  double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
-  double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
-  std::vector<Matrix> shift;  ///< per body, components x points; empty for none
-  bool startSolved = false;   ///< the start of the step is the solution of the one before
-  /// What of `shift` is a change of thermal strain, per body; empty for none.
+  double time = 0;                     ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;                   ///< time step times the scheme's diagonal coefficient [s]
+  std::vector<Matrix> explicitStrain;  ///< per body, components x points; empty for none
+  bool startSolved = false;            ///< the start of the step is the solution of the one before
+  /// What of `explicitStrain` is a change of thermal strain, per body; empty for none.
   std::vector<Matrix> thermal = {};
   /// g at the start, per interface, by rows that follow the bodies to the end; empty: the state's
   std::vector<Vector> gap = {};
@@ -26,11 +26,12 @@ struct Step {
   const State& state0;
   const StepData& data;
   const std::vector<Vector>& loads;  ///< per body, nodal forces (dofs) at t1 [N/m]
-  std::vector<Matrix> strains0;      ///< per body, B u0 + shift; empty where its law does not depend on it
+  std::vector<Matrix>
+      strains0;  ///< per body, B u0 + explicitStrain; empty where its law does not depend on it
 
   [[nodiscard]] const std::vector<Vector>& gap0() const { return data.gap.empty() ? state0.gap : data.gap; }
-  [[nodiscard]] const Matrix* shift(size_t body) const {
-    return data.shift.empty() ? nullptr : &data.shift[body];
+  [[nodiscard]] const Matrix* explicitStrain(size_t body) const {
+    return data.explicitStrain.empty() ? nullptr : &data.explicitStrain[body];
   }
   /// What the strain of an iterate is added to for the total strain;
   /// null where the law does not depend on that.
@@ -48,7 +49,7 @@ using SlipSets = std::vector<std::vector<signed char>>;
 struct BodyIterate {
   TwoPartVector increment;  ///< du (dofs) [m]
   Matrix stress;            ///< s
-  Matrix strain;            ///< B du - shift, components x points, as of the last linearisation
+  Matrix strain;            ///< B du - explicitStrain, components x points, as of the last linearisation
 };
 
 /// The unknowns of a step.
@@ -60,7 +61,8 @@ struct Iterate {
   SlipSets slipping;
   /// What the distances g0 change by in the step, per interface; empty where none does [m].
   std::vector<Vector> distanceChange = {};
-  double wrongForce = 0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
+  double largestTension =
+      0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
 };
 
 /// The sets with which a step from `state0` begins: where there was a force, or everywhere if there was none.
@@ -75,7 +77,7 @@ void addThermalStrain(const Model& model, const State& state0, StepData& data);
 /// Puts the change of the prescribed displacements and of the distances up to t1 into the iterate.
 void prescribe(const Model& model, const Step& step, Iterate& iterate);
 
-/// iterate.bodies[body].strain becomes B du - shift.
+/// iterate.bodies[body].strain becomes B du - explicitStrain.
 void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate);
 
 /// The largest |du| of any body [m].
@@ -99,9 +101,10 @@ double gapWork(const State& state0, const Iterate& solution);
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
 /// What friction does in a step where nodes slip or contact opens, per interface and node [J/m]: the mean of
-/// force times slip at its ends, which keeps the energy of elastic bodies.
+/// force times slip at the beginning and the end of slip.
+/// \param friction0  at the beginning of slip [N/m]
 /// \param slip0, slip1  T du with the rows at the start and at the end
-std::vector<Vector> frictionWork(const State& state0, const Iterate& solution,
+std::vector<Vector> frictionWork(const std::vector<Vector>& friction0, const Iterate& solution,
                                  const std::vector<Vector>& slip0, const std::vector<Vector>& slip1);
 
 /// Whether any point of the state flows.

@@ -5,15 +5,12 @@
 #include "base/dense_templates.h"
 #include "base/error.h"
 #include "fem/rigid_modes.h"
+#include "solver/contact_sets.h"
 #include "solver/free_rotation.h"
 #include "solver/step_system.h"
 
 namespace mortier {
 namespace {
-
-/// A motion that moves the contact nodes by less than this part of what motions do there is not held by
-/// contact.
-constexpr double heldFraction = 1e-14;
 
 /// A body that moves by less than this part of a motion has none in it.
 constexpr double negligibleMotion = 1e-6;
@@ -32,17 +29,16 @@ void StepSystem::requireHeld() {
   contact_.proximal = options_.proximalWeight;
   joinMotions();
   if (contact_.G.cols() == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(contact_.G.transpose() * contact_.G));
-  if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())
-    throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
-                          "; a support or a contact would");
+  const Matrix free = rigidMotionsOn(std::vector<char>(conditions(), 1), contact_.G).free;
+  if (free.cols() > 0)
+    throw UnheldBodyError("nothing holds " + describeRigid(free.col(0)) + "; a support or a contact would");
 }
 
 std::string StepSystem::looseMotion(const State& state0, const Iterate& solution) const {
   if (contact_.G.cols() == 0) return "";
   constexpr double touching = 1e-14;
   const std::vector<Vector> u = displacements(state0, solution);
-  Matrix closed = contact_.G;
+  std::vector<char> closed(conditions(), 1);
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactPair& pair = model_.interfaces[k].pair();
     Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body], state0.time);
@@ -50,12 +46,11 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
     if (model_.interfaces[k].yields()) gap -= model_.interfaces[k].yielded(solution.contactForce[k]);
     const double size = model_.bodies[pair.nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
-      if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();
+      if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed[firstRow_[k] + i] = 0;
   }
-  const std::vector<int> slipping = freeAlong(solution);
-  for (const int row : slipping) closed.row(row).setZero();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(closed.transpose() * closed));
-  const auto loose = (eigen.eigenvalues().array() <= heldFraction * contact_.G.squaredNorm()).count();
+  const std::vector<int> slipping = nonStickingRows(solution);
+  for (const int row : slipping) closed[row] = 0;
+  const Matrix loose = rigidMotionsOn(closed, contact_.G).free;
   Eigen::Index which = 0;
   const auto turns = [&](const Vector& z) {
     for (size_t b = 0; b < bodies_.size(); ++b)
@@ -63,9 +58,9 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
         if (!turnsInItself(model_, static_cast<int>(b), bodies_[b].contact().motions * part)) return false;
     return true;
   };
-  while (which < loose && turns(eigen.eigenvectors().col(which))) ++which;
-  if (which == loose) return "";
-  const Vector z = eigen.eigenvectors().col(which);
+  while (which < loose.cols() && turns(loose.col(which))) ++which;
+  if (which == loose.cols()) return "";
+  const Vector z = loose.col(which);
   // Where some nodes would go on to slip and others back, those stick in the end, whichever way it goes.
   double onwards = 0;
   double back = 0;
@@ -78,7 +73,7 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   if (std::min(onwards, back) > negligibleMotion * std::max(onwards, back)) return "";
   bool untouched = true;
   for (size_t b = 0; b < bodies_.size(); ++b)
-    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || !model_.any(!u[b].isZero(0)));
+    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || !!u[b].isZero(0));
   return untouched ? "" : describeRigid(z);
 }
 
@@ -91,7 +86,7 @@ int StepSystem::slipOf(const Iterate& solution, int row) const {
   return 0;
 }
 
-std::vector<int> StepSystem::freeAlong(const Iterate& solution) const {
+std::vector<int> StepSystem::nonStickingRows(const Iterate& solution) const {
   const Vector p = joined(solution.contactForce);
   std::vector<int> free;
   const auto& [node, law] = contact_.along;
@@ -109,8 +104,7 @@ std::string StepSystem::describeRigid(const Vector& z) const {
     const Vector part = motionOf(z, b);
     if (!(part.norm() > negligibleMotion * z.norm())) continue;
     if (!text.empty()) text += ", ";
-    text += "body " + model_.bodies[b].name() + ": " +
-            bodies_[b].contact().describe(model_, static_cast<int>(b), part);
+    text += "body " + model_.bodies[b].name() + ": " + bodies_[b].contact().describe(model_.bodies[b], part);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "linear/distributed_engine.h"
 
 namespace mortier {
 
@@ -18,13 +19,11 @@ bool holds(const Body& body, int node, const SpacePoint& direction) {
 }
 
 bool anyFriction(const Model& model) {
-  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [](const ContactInterface& interface) { return interface.hasFriction(); });
+  return std::ranges::any_of(model.interfaces, &ContactInterface::hasFriction);
 }
 
 bool anyFollows(const Model& model) {
-  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [](const ContactInterface& interface) { return interface.follows(); });
+  return std::ranges::any_of(model.interfaces, &ContactInterface::follows);
 }
 
 void follow(const Model& model, const std::vector<Vector>& u, bool keepRows) {
@@ -39,20 +38,31 @@ void follow(const Model& model, const std::vector<Vector>& u, bool keepRows) {
 }
 
 bool anyDistanceMoves(const Model& model) {
-  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [](const ContactInterface& interface) { return interface.distanceMoves(); });
+  return std::ranges::any_of(model.interfaces, &ContactInterface::distanceMoves);
 }
 
 LinearEngine engineOf(const Model& model, const Body& body, const SolverOptions& options) {
   constexpr int worthCorrecting = 20000;  // equations
   if (options.linear == LinearEngine::suitesparse) return options.linear;
-  const bool possible = body.dimension() == 3 && body.material().symmetricTangent() && !model.inParts();
-  const bool pays = body.freeDofs() >= worthCorrecting &&
-                    std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& each) {
-                      return each.material().symmetricTangent() && each.material().usesReturnMapping();
-                    });
+  const bool possible = body.dimension() == 3 && body.material().symmetricTangent() &&
+                        DistributedEngine::ofProgram() == nullptr;
+  const bool pays =
+      body.freeDofs() >= worthCorrecting && std::ranges::all_of(model.bodies, [](const Body& each) {
+        return each.material().symmetricTangent() && each.material().usesReturnMapping();
+      });
   return possible && (pays || options.linear == LinearEngine::single) ? LinearEngine::single
                                                                       : LinearEngine::multifrontal;
+}
+
+std::unique_ptr<CondensingSolver> newSolver(LinearEngine engine, const SparsePattern& pattern,
+                                            const std::vector<int>& kept, Threads& threads) {
+  DistributedEngine* distributed = DistributedEngine::ofProgram();
+  auto solver = engine == LinearEngine::suitesparse ? suiteSparseSolver(pattern, kept)
+                : distributed != nullptr            ? distributed->solver(pattern, kept)
+                : engine == LinearEngine::single    ? singleSolver(pattern, kept)
+                                                    : multifrontalSolver(pattern, kept);
+  solver->use(threads);
+  return solver;
 }
 
 bool solvesSparse(const Model& model, const SolverOptions& options) {
@@ -60,10 +70,9 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  const bool dense =
-      anyFriction(model) || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-        return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
-      });
+  const bool dense = anyFriction(model) || std::ranges::any_of(model.bodies, [](const Body& body) {
+                       return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
+                     });
   return !anyFollows(model) && solvesSparse(conditions, equations, dense, options);
 }
 
@@ -93,27 +102,6 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
   options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, {n.x(), n.y(), 0}); };
   model.interfaces.emplace_back(pair, ContactMesh{nonmortar.mesh(), nonmortar.elementNodes()},
                                 ContactMesh{mortar.mesh(), mortar.elementNodes()}, options);
-}
-
-Model inParts(const Model& whole, Ranks& ranks) {
-  Model model;
-  model.ranks = &ranks;
-  const std::vector<std::vector<int>> owners = ownersOf(whole.bodies, ranks);
-  std::vector<std::vector<int>> numbers;
-  for (size_t b = 0; b < whole.bodies.size(); ++b) {
-    model.parts.push_back(partOf(whole.bodies[b], owners[b], ranks));
-    const BodyCut& cut = model.parts[b].cut;
-    model.bodies.emplace_back(whole.bodies[b], cut);
-    std::vector<int>& number = numbers.emplace_back(whole.bodies[b].nodes(), -1);
-    for (size_t i = 0; i < cut.nodes.size(); ++i) number[cut.nodes[i]] = static_cast<int>(i);
-  }
-  for (const ContactInterface& interface : whole.interfaces) {
-    const int one = interface.pair().nonmortar.body;
-    const int two = interface.pair().mortar.body;
-    model.interfaces.push_back(interface.renumbered({numbers[one], numbers[two]},
-                                                    {model.bodies[one].nodes(), model.bodies[two].nodes()}));
-  }
-  return model;
 }
 
 }  // namespace mortier

@@ -28,7 +28,7 @@ enum class Reason {
 };
 
 struct StepOutcome {
-  Rung rung = Rung::newton;
+  SolutionMethod method = SolutionMethod::newton;
   Reason reason = Reason::unconverged;
   std::string detail;      ///< one line; where contact cannot balance the load it names the motion
   int iterations = 0;      ///< linear solves with a new tangent

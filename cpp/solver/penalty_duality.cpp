@@ -16,12 +16,15 @@
 // stress reached, ever more rarely, so that they become constant.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "base/dense_templates.h"
 #include "base/digits.h"
 #include "base/formatted.h"
 #include "base/worst.h"
+#include "solver/friction_sets.h"
 #include "solver/methods.h"
 
 namespace mortier {
@@ -53,6 +56,7 @@ class Restarts {
 /// The bodies' answer to the multipliers. With the rigid motions z = zeta/omega and the jump a = C d that the
 /// forces left over make at dp = 0:
 ///   (I + omega W) dp - G zeta = target + omega a,   G' dp = balance
+/// or, over omega, the equations of all conditions held, each with the compliance 1/omega of its own.
 class MultiplierSystem {
  public:
   explicit MultiplierSystem(const ContactProblem& contact) : rows_(contact.W.rows()) {
@@ -62,12 +66,9 @@ class MultiplierSystem {
     const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(W, Eigen::EigenvaluesOnly).eigenvalues();
     const double largest = w[rows_ - 1];
     omega_ = 1 / std::sqrt(std::max(w[0], negligible * largest) * largest);
-    const Eigen::Index motions = contact.G.cols();
-    Matrix system = Matrix::Zero(rows_ + motions, rows_ + motions);
-    system.topLeftCorner(rows_, rows_) = Matrix::Identity(rows_, rows_) + omega_ * contact.W;
-    system.topRightCorner(rows_, motions) = -contact.G;
-    system.bottomLeftCorner(motions, rows_) = contact.G.transpose();
-    lu_.compute(system);
+    HeldConditions all{std::vector<Eigen::Index>(rows_)};
+    std::iota(all.rows.begin(), all.rows.end(), 0);
+    equations_.emplace(contact, std::move(all), 1 / omega_, 0);
   }
 
   [[nodiscard]] double omega() const { return omega_; }
@@ -76,11 +77,9 @@ class MultiplierSystem {
     ContactSolution solution;
     solution.outcome = ContactSolution::Outcome::solved;
     solution.active.assign(rows_, 1);
-    Vector right(rows_ + balance.size());
-    right << target + omega_ * jump, balance;
-    if (rows_ > 0) right = Vector(lu_.solve(right));
-    solution.change = right.head(rows_);
-    solution.rigid = right.tail(balance.size()) / omega_;
+    solution.change = target / omega_ + jump;
+    solution.rigid = balance;
+    if (equations_) equations_->solve(solution.change, solution.rigid);
     return solution;
   }
 
@@ -106,7 +105,7 @@ class MultiplierSystem {
  private:
   Eigen::Index rows_;
   double omega_ = 1;
-  Eigen::PartialPivLU<Matrix> lu_;
+  std::optional<HeldSystem> equations_;
 };
 
 }  // namespace
@@ -115,11 +114,10 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
   const Model& model = system.model();
   const SolverOptions& options = system.options();
   StepOutcome outcome;
-  outcome.rung = Rung::penaltyDuality;
+  outcome.method = SolutionMethod::penaltyDuality;
   prescribe(model, step, iterate);
   double largestLoad = 0;
   for (const Vector& load : step.loads) largestLoad = std::max(largestLoad, load.cwiseAbs().maxCoeff());
-  largestLoad = model.largest(largestLoad);
   std::vector<Vector> penalty(model.bodies.size());
   const StepSystem::LawOf regularised = [&](int b) -> BodyLaw {
     return {[&, b](const BodyIterate& body, Linearisation& result, int begin, int end) {
@@ -155,7 +153,7 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
       for (size_t k = 0; k < solution.active.size(); ++k)
         for (size_t i = 0; i < solution.active[k].size(); ++i)
           solution.active[k][i] = solution.contactForce[k][static_cast<Eigen::Index>(i)] > 0 ? 1 : 0;
-      solution.wrongForce = p.size() > 0 ? std::max(0.0, -p.minCoeff()) : 0;
+      solution.largestTension = p.size() > 0 ? std::max(0.0, -p.minCoeff()) : 0;
       const double residual = system.linearise(step, solution, step.data.weight, false).residual();
       const Certificate certificate = system.certify(step, solution, residual);
       if (residual <= options.tolerance && certificate.forceBalance <= balanceTolerance) {

@@ -10,32 +10,31 @@
 namespace mortier {
 namespace {
 
-using Signs = ContactSets::Signs;
+using Violations = ContactSets::Violations;
 
-/// How deep a set overlaps, as the energy that closing each condition by itself would bring.
-double depthOf(const Signs& signs, const Vector& diagonal) {
+/// The penetration of a set, as the energy of closing each condition by itself.
+double depthOf(const Violations& violations, const Vector& diagonal) {
   double sum = 0;
-  for (const int i : signs.overlaps) sum += signs.slack[i] * signs.slack[i] / diagonal[i];
+  for (const int i : violations.penetration) sum += violations.slack[i] * violations.slack[i] / diagonal[i];
   return sum;
 }
 
-/// Whether sets on which no force pulls come nearer to the solution. Where W is symmetric that is by the
-/// energy 1/2 p'W p + s0'p, whose change is half of s_old'p_new - s_new'p_old,
-/// otherwise by the number of overlaps.
-bool isBetter(const Signs& next, const Signs& best, bool symmetric) {
-  if (next.overlaps.empty()) return true;
-  if (!symmetric) return next.overlaps.size() < best.overlaps.size();
+/// Whether a set without tension is nearer to the solution. W symmetric: by the energy 1/2 p'W p + s0'p,
+/// whose change is half of s_old'p_new - s_new'p_old; else by the number of conditions that penetrate.
+bool isBetter(const Violations& next, const Violations& best, bool symmetric) {
+  if (next.penetration.empty()) return true;
+  if (!symmetric) return next.penetration.size() < best.penetration.size();
   return best.slack.dot(next.force) < next.slack.dot(best.force);
 }
 
-/// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most
-/// `count`, the deepest ones.
-std::vector<int> deepest(const Signs& signs, const Vector& diagonal, size_t count) {
-  const Vector depth = signs.slack.cwiseQuotient(diagonal);
+/// The deepest condition of each run of neighbours that penetrate: most of a run that closes as a whole would
+/// be under tension. At most `count`, the deepest ones.
+std::vector<int> deepest(const Violations& violations, const Vector& diagonal, size_t count) {
+  const Vector depth = violations.slack.cwiseQuotient(diagonal);
   std::vector<int> result;
-  for (size_t k = 0; k < signs.overlaps.size(); ++k) {
-    const int i = signs.overlaps[k];
-    if (k == 0 || i != signs.overlaps[k - 1] + 1)
+  for (size_t k = 0; k < violations.penetration.size(); ++k) {
+    const int i = violations.penetration[k];
+    if (k == 0 || i != violations.penetration[k - 1] + 1)
       result.push_back(i);
     else if (depth[i] < depth[result.back()])
       result.back() = i;
@@ -47,17 +46,17 @@ std::vector<int> deepest(const Signs& signs, const Vector& diagonal, size_t coun
   return result;
 }
 
-/// Drops forces that pull until none is left. Where contact peels off from the ends of closed runs that would
-/// be one node at a time: after a few solves neighbours are dropped too, twice as many each time, until some
-/// of them overlap, which are closed again.
-class Peeling {
+/// Removes conditions under tension. Contact that peels off from the ends of closed runs would lose one node
+/// in each solve: after a few solves neighbours are removed too, twice as many each time, until some of them
+/// penetrate, which are closed again.
+class TensionRemoval {
  public:
-  void drop(const Signs& signs, std::vector<char>& active) {
+  void drop(const Violations& violations, std::vector<char>& active) {
     constexpr int patience = 3;
     if (++rounds_ > patience) width_ = std::max(1, std::min(2 * width_, widest_));
-    for (const int i : signs.pulls) active[i] = 0;
+    for (const int i : violations.tension) active[i] = 0;
     const auto n = static_cast<int>(active.size());
-    for (const int i : signs.pulls)
+    for (const int i : violations.tension)
       for (const int side : {-1, 1})
         for (int j = i + side; j >= 0 && j < n && std::abs(j - i) < width_ && active[j] != 0; j += side) {
           active[j] = 0;
@@ -65,11 +64,11 @@ class Peeling {
         }
   }
   /// \returns whether too many were dropped.
-  bool takeBack(const Signs& signs, std::vector<char>& active) {
+  bool takeBack(const Violations& violations, std::vector<char>& active) {
     constexpr int narrower = 4;
     bool any = false;
     for (const int i : beside_) {
-      if (!std::binary_search(signs.overlaps.begin(), signs.overlaps.end(), i)) continue;
+      if (!std::binary_search(violations.penetration.begin(), violations.penetration.end(), i)) continue;
       active[i] = 1;
       any = true;
     }
@@ -88,39 +87,40 @@ class Peeling {
   std::vector<int> beside_;
 };
 
-/// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the
-/// set itself. Nothing where the work ends.
-/// \param exchange  whether what overlaps is closed at once with the drops to begin with (Newton's method on
-/// the complementarity), as long as most times fewer signs are wrong
-bool dropPulls(ContactSets& contact, ContactSolution& solution, Signs& signs, bool exchange = false) {
+/// Solves until no condition is under tension; where none penetrates either, with factors of the set itself.
+/// \returns false where the work ends or the set is redundant.
+/// \param exchange  whether conditions that penetrate join at once to begin with (semismooth Newton), as long
+/// as most times fewer conditions are violated
+bool removeTension(ContactSets& contact, ContactSolution& solution, Violations& violations,
+                   bool exchange = false) {
   constexpr int patience = 2;
-  Peeling peeling;
+  TensionRemoval removal;
   size_t wrong = solution.active.size() + 1;
   int inVain = 0;
   while (!contact.redundant() && !contact.capped()) {
     stopIfInterrupted();
     if (!contact.solveOn(solution)) return false;
-    signs = contact.signsOf(solution);
-    const size_t now = signs.pulls.size() + signs.overlaps.size();
+    violations = contact.violationsOf(solution);
+    const size_t now = violations.tension.size() + violations.penetration.size();
     inVain += now < wrong ? 0 : 1;
     wrong = std::min(wrong, now);
     exchange = exchange && inVain < patience;
     if (exchange && now > 0) {
-      for (const int i : signs.pulls) solution.active[i] = 0;
-      for (const int i : signs.overlaps) solution.active[i] = 1;
+      for (const int i : violations.tension) solution.active[i] = 0;
+      for (const int i : violations.penetration) solution.active[i] = 1;
       continue;
     }
-    if (peeling.takeBack(signs, solution.active)) continue;
-    peeling.drop(signs, solution.active);
-    if (!signs.pulls.empty()) continue;
-    if (!signs.overlaps.empty() || contact.fresh()) return true;
+    if (removal.takeBack(violations, solution.active)) continue;
+    removal.drop(violations, solution.active);
+    if (!violations.tension.empty()) continue;
+    if (!violations.penetration.empty() || contact.fresh()) return true;
     if (!contact.refactor(solution.active)) return false;
   }
   return false;
 }
 
-/// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached
-/// first is dropped, and so on: the energy falls (Lawson and Hanson 1974).
+/// Closes a condition that penetrates, from the forces p >= 0 of a set. Of those that come under tension the
+/// first one leaves, and so on: the energy falls (Lawson and Hanson 1974).
 void descend(ContactSets& contact, int chosen, Vector p, ContactSolution& solution) {
   solution.active[chosen] = 1;
   while (!contact.capped()) {
@@ -141,7 +141,8 @@ void descend(ContactSets& contact, int chosen, Vector p, ContactSolution& soluti
   }
 }
 
-/// Closes an overlap of a set whose forces all push; no sign that is right becomes wrong.
+/// Closes a condition that penetrates, on a set without tension; no condition becomes violated (Cottle and
+/// Dantzig 1968).
 void closeOne(ContactSets& contact, int chosen, ContactSolution& solution) {
   if (!contact.solveOn(solution)) return;
   Vector p = contact.p0() + solution.change;
@@ -174,25 +175,25 @@ void closeOne(ContactSets& contact, int chosen, ContactSolution& solution) {
   }
 }
 
-/// From the set in `solution` to one where no force pulls and nothing overlaps. \returns false after all work
-/// that is allowed, or where a matrix is redundant.
+/// From the set in `solution` to one that violates nothing. \returns false after all work that is allowed, or
+/// where a matrix is redundant.
 bool pivot(ContactSets& contact, ContactSolution& solution) {
   constexpr size_t faster = 2;
   constexpr size_t slower = 4;
   constexpr double shallower = 0.9;
   const ContactProblem& problem = contact.problem();
-  Signs best;
-  if (!dropPulls(contact, solution, best, true)) return false;
+  Violations best;
+  if (!removeTension(contact, solution, best, true)) return false;
   size_t atOnce = solution.active.size();
   double least = depthOf(best, contact.diagonal());
-  bool pressed = 2 * best.overlaps.size() > solution.active.size();  // most of what closes may stay closed
-  while (!best.overlaps.empty()) {
+  bool pressed = 2 * best.penetration.size() > solution.active.size();  // most of what closes may stay closed
+  while (!best.penetration.empty()) {
     const std::vector<char> before = solution.active;
-    const std::vector<int> chosen = pressed ? best.overlaps : deepest(best, contact.diagonal(), atOnce);
+    const std::vector<int> chosen = pressed ? best.penetration : deepest(best, contact.diagonal(), atOnce);
     for (const int i : chosen) solution.active[i] = 1;
-    Signs next;
-    if (!dropPulls(contact, solution, next)) return false;
-    // A set that overlaps less than any before is taken however its energy: that happens a few times only.
+    Violations next;
+    if (!removeTension(contact, solution, next)) return false;
+    // A set that penetrates less than any before is accepted whatever its energy: that happens rarely.
     const double depth = depthOf(next, contact.diagonal());
     if (depth < shallower * least || isBetter(next, best, problem.symmetric)) {
       least = std::min(least, depth);
@@ -208,7 +209,7 @@ bool pivot(ContactSets& contact, ContactSolution& solution) {
       descend(contact, chosen.front(), best.force, solution);
     else
       closeOne(contact, chosen.front(), solution);
-    if (!dropPulls(contact, solution, best)) return false;
+    if (!removeTension(contact, solution, best)) return false;
   }
   return true;
 }
@@ -224,16 +225,16 @@ ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& act
   solution.rigid = Vector::Zero(motions);
   bool found = false;
   const auto solve = [&] {
-    contact.centre(solution.rigid);
+    contact.setProximalPoint(solution.rigid);
     found = pivot(contact, solution);
     return !found || motions == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
   };
   repeatProximal(repetitions, balanceRounding, solve, [&] { contact.soften(); });
   if (!found)
     solution.outcome = contact.capped() ? ContactSolution::Outcome::capped : ContactSolution::Outcome::cycled;
-  else if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > mostImbalance)
-    solution.outcome =
-        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
+  else if (motions > 0 && contact.imbalance(solution, contact.forceScales(solution)) > mostImbalance)
+    solution.outcome = contact.isUnbounded(solution) ? ContactSolution::Outcome::unbalanced
+                                                     : ContactSolution::Outcome::cycled;
   else
     solution.outcome = ContactSolution::Outcome::solved;
   return solution;

@@ -1,64 +1,13 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
-#include "solver/friction_sets.h"
+#include "solver/closed_contact.h"
 #include "solver/step_system.h"
 
 namespace mortier {
-namespace {
-
-/// The linear problem of (contact) when the sets are given: s = 0 on closed conditions, dp = 0 off them, the
-/// balance G' dp = `balance`, as stresses do no work on rigid motions.
-class ClosedContact {
- public:
-  /// \param adjoint  the transposed equations: t of slipping nodes is 0, and s + (+-mu) v = 0 there
-  ClosedContact(const ContactProblem& problem, const FrictionSets& sets, bool adjoint)
-      : problem_(problem), adjoint_(adjoint) {
-    constexpr double regularising = 1e-12;  // where conditions or motions are redundant
-    FrictionWork work;
-    const Vector none = Vector::Zero(problem.W.rows());
-    const FrictionSystem contact(problem, none, {}, work);
-    held_ = contact.heldOn(sets);
-    if (held_.rows.empty()) return;
-    const double compliance = problem.W.diagonal()(held_.rows).cwiseAbs().maxCoeff();
-    system_ = contact.matrix(held_, 1, regularising * compliance, regularising / compliance);
-    // With -z for z the matrix has G below and to the right with the signs exchanged.
-    if (adjoint) system_.transposeInPlace();
-    factor_.emplace(system_);
-  }
-
-  [[nodiscard]] ContactSolution solve(const Vector& slack, const Vector& balance) const {
-    ContactSolution solution;
-    solution.change = Vector::Zero(slack.size());
-    solution.rigid = Vector::Zero(problem_.G.cols());
-    if (!factor_) return solution;
-    const auto n = static_cast<Eigen::Index>(held_.rows.size());
-    Vector right = Vector::Zero(system_.rows());
-    right.head(n) = -slack(held_.rows);
-    right.tail(balance.size()) = (adjoint_ ? -1 : 1) * balance;
-    for (const auto& [row, leader, part] : held_.followers)
-      if (adjoint_) right[leader] -= part * slack[row];
-    const Vector x = factor_->solve(right);
-    solution.change(held_.rows) = x.head(n);
-    solution.rigid = (adjoint_ ? -1 : 1) * x.tail(problem_.G.cols());
-    for (const auto& [row, leader, part] : held_.followers)
-      if (!adjoint_) solution.change[row] = part * x[leader];
-    return solution;
-  }
-
- private:
-  const ContactProblem& problem_;
-  bool adjoint_;
-  HeldConditions held_;
-  Matrix system_;
-  std::optional<Eigen::PartialPivLU<Eigen::Ref<Matrix>>> factor_;  ///< in place: it may be large
-};
-
-}  // namespace
-
-std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, const Iterate& on) const {
+std::vector<Response> StepSystem::Factorised::respond(const LinearLoad& to, const Iterate& on) const {
   const Model& model = system_->model_;
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Response> responses(bodies.size());
@@ -70,7 +19,7 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
       for (int i = begin; i < end; ++i) stress.col(i) = -stressOf(bodies[b].law(), to.strain[b].col(i), i);
     });
     const Vector load = to.force.empty() ? Vector(Vector::Zero(model.bodies[b].dofs())) : to.force[b];
-    force[b] = bodies[b].leftOver(load, stress);
+    force[b] = load - model.bodies[b].internalForce(stress);
   });
   Vector slack = Vector::Zero(system_->conditions());
   const Vector across = joined(to.across);
@@ -88,8 +37,7 @@ std::vector<Response> StepSystem::Factorised::respond(const Disturbance& to, con
       if (dofs.none()) continue;
       slack -= dofs.C * motion[b];
       if (!to.force.empty())
-        balance.segment(system_->firstMotion_[b], dofs.R.cols()) =
-            dofs.rigidForce(model, static_cast<int>(b), to.force[b]);
+        balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(to.force[b]);
     }
     contact = ClosedContact(system_->contact_, joinedSets(on), to.adjoint).solve(slack, balance);
   }
@@ -117,12 +65,6 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
   std::vector<Vector> along(count);
   std::vector<Matrix> stress(count);  // H^-1 B along
   const ClosedContact contact(system_->contact_, joinedSets(iterate), false);
-  const auto take = [&](const std::vector<Vector>& p) {
-    for (size_t k = 0; k < model.interfaces.size(); ++k) {
-      const ContactPair& pair = model.interfaces[k].pair();
-      model.interfaces[k].subtractForces(p[k], residual[pair.nonmortar.body], residual[pair.mortar.body]);
-    }
-  };
   const auto dot = [&](const std::vector<Vector>& x, const std::vector<Vector>& y) {
     double sum = 0;
     for (size_t b = 0; b < count; ++b) sum += x[b].dot(y[b]);
@@ -135,8 +77,7 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
                  [&](int begin, int end) { model.bodies[b].addStressOf(d[b], law, stress[b], begin, end); });
     return model.bodies[b].internalForce(stress[b]);
   };
-  const bool yields = std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                                  [](const ContactInterface& interface) { return interface.yields(); });
+  const bool yields = std::ranges::any_of(model.interfaces, &ContactInterface::yields);
   std::vector<Vector> contactAlong;
   std::vector<Vector> forceAlong(count);
   std::vector<double> forces(count);
@@ -147,7 +88,7 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     motion[b] = body.increment.minus(before.bodies[b].increment);
     forceAlong[b] = stressAlong(motion, b);
   });
-  take(iterate.contactForce);
+  system_->subtractContact(iterate.contactForce, iterate.frictionForce, residual);
   const double enough = part * part * dot(motion, forceAlong);  // of the energy of the solve
   const double noise = rounding * *std::max_element(forces.begin(), forces.end());
   double last = 0;
@@ -163,7 +104,7 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     system_->expandBodies(closed, [&](int b, const Vector& d) { motion[b] = d; });
     std::vector<Vector> change = system_->parted(closed.change);
     const auto move = [&](const std::vector<Vector>& by) {
-      take(by);
+      system_->subtractContact(by, {}, residual);
       for (size_t k = 0; k < by.size(); ++k) iterate.contactForce[k] += by[k];
     };
     if (!yields) move(change);
@@ -197,20 +138,22 @@ std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, cons
                                           const std::vector<Vector>& slip) {
   std::vector<Response> responses(bodies_.size());
   const auto none = [](const auto& part) { return part.isZero(0); };
-  if (!model_.any(!std::all_of(error.begin(), error.end(), none)) &&
-      std::all_of(slip.begin(), slip.end(), none)) {
+  if (std::ranges::all_of(error, none) && std::ranges::all_of(slip, none)) {
     for (size_t b = 0; b < bodies_.size(); ++b)
       responses[b] = {Vector::Zero(model_.bodies[b].dofs()), Matrix::Zero(error[b].rows(), error[b].cols())};
     return responses;
   }
+  return currentFactors().respond({error, slip}, on);
+}
+
+StepSystem::Factorised StepSystem::currentFactors() {
   const Linearised last(*this, 0, Key{});
   StepOutcome again;
-  const auto stale = [](const CondensedBody& body) { return body.stale(); };
   // Rows that follow the bodies have been taken anew since the last linear solve.
   const bool otherRows = !sparse() && contact_.W.rows() != conditions();
-  if (otherRows || olderFactors_ || std::any_of(bodies_.begin(), bodies_.end(), stale))
+  if (otherRows || olderFactors_ || std::ranges::any_of(bodies_, &CondensedBody::stale))
     static_cast<void>(last.factorise(again));
-  return last.keepFactors().respond({error, slip}, on);
+  return last.keepFactors();
 }
 
 }  // namespace mortier

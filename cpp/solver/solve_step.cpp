@@ -7,25 +7,10 @@
 
 namespace mortier {
 
-const char* nameOf(Rung rung) {
-  switch (rung) {
-    case Rung::rest:
-      return "rest";
-    case Rung::newton:
-      return "newton";
-    case Rung::continuation:
-      return "continuation";
-    case Rung::interiorPoint:
-      return "interior-point";
-    case Rung::path:
-      return "path";
-    case Rung::damping:
-      return "damping";
-    case Rung::penaltyDuality:
-      return "penalty-duality";
-    default:
-      return "cut";
-  }
+const char* nameOf(SolutionMethod method) {
+  constexpr const char* names[] = {"rest", "newton",          "continuation", "interior-point",
+                                   "path", "penalty-duality", "cut"};
+  return names[static_cast<int>(method)];
 }
 
 namespace {
@@ -33,7 +18,7 @@ namespace {
 /// Whether a central path leads to the law, on which few iterations depend on its stiffness.
 bool hasPath(const Material& material) {
   const std::vector<LawDescription> laws = material.laws();
-  return std::any_of(laws.begin(), laws.end(), [](const LawDescription& law) { return law.projected; });
+  return std::ranges::any_of(laws, [](const LawDescription& law) { return law.projected.has_value(); });
 }
 
 /// Whether a law that flows is linearised where the strain leads in every method.
@@ -55,38 +40,38 @@ bool comesDownFromFar(const Body& body) {
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  constexpr int firstWalk = 60;
+  constexpr int firstContinuation = 60;
   constexpr int usualIterations = 300;
-  constexpr int secondWalk = 100;
-  constexpr int longWalk = 1500;
+  constexpr int secondContinuation = 100;
+  constexpr int longestPath = 1500;
   constexpr int descent = 60;
   const SolverOptions& options = system.options();
   const Step step = system.step(state0, data);
   const std::vector<Body>& bodies = system.model().bodies;
   const auto linear = [](const Body& body) { return body.material().linear(); };
-  const bool allLinear = std::all_of(bodies.begin(), bodies.end(), linear);
+  const bool allLinear = std::ranges::all_of(bodies, linear);
   const bool unique = system.uniqueSolutions();
   // A line search leads down to the one solution. In the plane, where factors cost little, it comes last, and
   // not where there is a path.
   const auto maps = [](const Body& body) { return body.material().usesReturnMapping(); };
-  const bool searches = !allLinear && system.completes() && std::all_of(bodies.begin(), bodies.end(), maps);
-  const bool far = std::any_of(bodies.begin(), bodies.end(), comesDownFromFar);
+  const bool searches = !allLinear && system.completes() && std::ranges::all_of(bodies, maps);
+  const bool far = std::ranges::any_of(bodies, comesDownFromFar);
   const int plainIterations = searches ? descent : far ? 25 : 7;
   if (options.reduce && data.startSolved)
     if (StepOutcome outcome = rest(system, step, guess); outcome.converged()) return outcome;
   if (options.method == Method::penaltyDuality) return penaltyDuality(system, step, guess);
 
   NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};
-  plain.turning = !searches;
-  plain.shortens = plain.anticipate = searches;
+  plain.giveUpOnReversal = !searches;
+  plain.lineSearch = plain.anticipate = searches;
   // Before the first solve the strain is that of supports which move alone: a law that is linearised there
   // would flow beside them.
   plain.elasticFirst =
-      (searches || std::any_of(bodies.begin(), bodies.end(), alwaysMaps)) && !flows(system.model(), state0);
+      (searches || std::ranges::any_of(bodies, alwaysMaps)) && !flows(system.model(), state0);
   StepOutcome total = newton(system, step, data.weight, plain, guess);
-  const auto tryMethod = [&](Rung rung, StepOutcome next) {
+  const auto tryMethod = [&](SolutionMethod method, StepOutcome next) {
     total.follow(std::move(next));
-    total.rung = rung;
+    total.method = method;
   };
   const auto iterationsLeft = [&](int most) {
     return std::min(most, options.maxIterations) - total.iterations;
@@ -97,41 +82,40 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
   // What flowed may unload.
   if (unsolved(usualIterations) && flows(system.model(), state0)) {
     plain.iterations = std::min(plainIterations, iterationsLeft(options.maxIterations));
-    plain.turning = false;
+    plain.giveUpOnReversal = false;
     plain.elasticFirst = true;
     Iterate unloaded = startingIterate(state0);
-    tryMethod(Rung::newton, newton(system, step, data.weight, plain, unloaded));
+    tryMethod(SolutionMethod::newton, newton(system, step, data.weight, plain, unloaded));
     if (total.converged()) guess = std::move(unloaded);
   }
   // The other methods change the law, which is linear already.
   if (effort == Effort::little || allLinear) return total;
-  const bool descends = unique && std::all_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+  const bool descends = unique && std::ranges::all_of(bodies, [&](const Body& body) {
                           return linear(body) || alwaysMaps(body);
                         });
   if (unsolved(usualIterations) && descends) {
     NewtonLimits searching{iterationsLeft(usualIterations), options.tolerance};
-    searching.shortens = true;
+    searching.lineSearch = true;
     Iterate searched = startingIterate(state0);
-    tryMethod(Rung::newton, newton(system, step, data.weight, searching, searched));
+    tryMethod(SolutionMethod::newton, newton(system, step, data.weight, searching, searched));
     if (total.converged()) guess = std::move(searched);
   }
-  ViscosityWalk walk(system.model(), step);
+  ViscosityContinuation continuation(system.model(), step);
   if (unsolved(usualIterations) && !unique)
-    tryMethod(
-        Rung::continuation,
-        lowerViscosity(system, step, walk, std::min(firstWalk, iterationsLeft(usualIterations)), guess));
+    tryMethod(SolutionMethod::continuation,
+              lowerViscosity(system, step, continuation,
+                             std::min(firstContinuation, iterationsLeft(usualIterations)), guess));
   if (unsolved(usualIterations))
-    tryMethod(Rung::interiorPoint, interiorPoint(system, step, iterationsLeft(usualIterations), guess));
+    tryMethod(SolutionMethod::interiorPoint,
+              interiorPoint(system, step, iterationsLeft(usualIterations), guess));
   if (unsolved(usualIterations) && !descends) {
-    const int most = std::min(unique ? usualIterations : secondWalk, iterationsLeft(usualIterations));
-    tryMethod(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
+    const int most = std::min(unique ? usualIterations : secondContinuation, iterationsLeft(usualIterations));
+    tryMethod(SolutionMethod::continuation, lowerViscosity(system, step, continuation, most, guess));
   }
   const int longest = effort == Effort::all ? options.maxIterations : usualIterations;
   if (unsolved(longest) && !unique)
-    tryMethod(Rung::path,
-              followCurve(system, step, walk, std::min(longWalk, iterationsLeft(longest)), guess));
-  if (effort == Effort::all && !unique && unsolved(longest))
-    tryMethod(Rung::damping, restOfDampedMotion(system, step, iterationsLeft(longest), guess));
+    tryMethod(SolutionMethod::path,
+              followCurve(system, step, continuation, std::min(longestPath, iterationsLeft(longest)), guess));
   return total;
 }
 
@@ -142,16 +126,16 @@ bool sameData(StepSystem& system, const Step& step) {
   const double before = step.state0.time;
   const double after = step.data.time;
   const Model& model = system.model();
-  if (before != after && model.any(system.loadsAt(before) != step.loads)) return false;
+  if (before != after && system.loadsAt(before) != step.loads) return false;
   for (const ContactInterface& interface : model.interfaces)
     if (interface.distanceMoves() && interface.distance(before) != interface.distance(after)) return false;
-  return !model.any(!std::all_of(model.bodies.begin(), model.bodies.end(), [&](const Body& body) {
+  return std::ranges::all_of(model.bodies, [&](const Body& body) {
     Vector u = Vector::Zero(body.dofs());
     Vector v = u;
     body.prescribe(before, u);
     body.prescribe(after, v);
     return u == v;
-  }));
+  });
 }
 
 }  // namespace
@@ -159,11 +143,11 @@ bool sameData(StepSystem& system, const Step& step) {
 StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate) {
   constexpr double touching = 1e-14;
   StepOutcome outcome;
-  outcome.rung = Rung::rest;
+  outcome.method = SolutionMethod::rest;
   const Model& model = system.model();
-  const auto none = [](const Matrix& shift) { return shift.isZero(0); };
+  const auto none = [](const Matrix& explicitStrain) { return explicitStrain.isZero(0); };
   if (!sameData(system, step) || flows(model, step.state0) ||
-      model.any(!std::all_of(step.data.shift.begin(), step.data.shift.end(), none)))
+      !std::ranges::all_of(step.data.explicitStrain, none))
     return outcome;
   iterate = startingIterate(step.state0);
   const double residual = system.linearise(step, iterate, step.data.weight, false).residual();

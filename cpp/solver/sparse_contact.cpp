@@ -5,6 +5,7 @@
 
 #include "base/dense_templates.h"
 #include "base/interrupt.h"
+#include "solver/contact_sets.h"
 
 namespace mortier {
 namespace {
@@ -33,7 +34,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<do
 
 SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody>& bodies,
                              const std::vector<int>& firstRow, LinearEngine engine, Threads& threads)
-    : engine_(engine), threads_(threads) {
+    : engine_(engine == LinearEngine::single ? LinearEngine::multifrontal : engine), threads_(threads) {
   for (const Body& body : model.bodies) {
     first_.push_back(first_.back() + body.freeDofs());
     patterns_.push_back(&body.pattern());
@@ -42,7 +43,7 @@ SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody
   findRows(model, bodies, firstRow);
   findSprings(model, bodies);
   findPattern();
-  analyse();
+  solver_ = newSolver(engine_, pattern_, {}, threads_);
 }
 
 void SparseContact::findRows(const Model& model, const std::vector<CondensedBody>& bodies,
@@ -163,17 +164,11 @@ int SparseContact::entry(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
 }
 
-void SparseContact::analyse() {
-  solver_ = engine_ == LinearEngine::suitesparse ? suiteSparseSolver(pattern_, {})
-                                                 : multifrontalSolver(pattern_, {});
-  solver_->use(threads_);
-}
-
 void SparseContact::useSuiteSparse() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;
   active_.clear();
-  analyse();
+  solver_ = newSolver(engine_, pattern_, {}, threads_);
 }
 
 void SparseContact::take(const std::vector<CondensedBody>& bodies) {
@@ -243,18 +238,14 @@ Vector SparseContact::stiffnessTimes(const Vector& d) const {
   Vector f = Vector::Zero(d.size());
   threads_.forEach(static_cast<int>(patterns_.size()), [&](int b) {
     const SparsePattern& own = *patterns_[b];
-    const double* x = &d[first_[b]];
-    double* y = &f[first_[b]];
-    const std::vector<double>& K = *K_[b];
-    for (int j = 0; j < own.size; ++j) {
-      double sum = 0;
-      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
-        const int i = own.rows[k];
-        y[i] += K[k] * x[j];
-        if (own.symmetric && i != j) sum += K[k] * x[i];
-      }
-      y[j] += sum;
-    }
+    const Eigen::Map<const Eigen::SparseMatrix<double>> K(
+        own.size, own.size, own.entries(), own.columnStart.data(), own.rows.data(), K_[b]->data());
+    const auto x = d.segment(first_[b], own.size);
+    auto y = f.segment(first_[b], own.size);
+    if (own.symmetric)
+      y = K.selfadjointView<Eigen::Lower>() * x;
+    else
+      y = K * x;
   });
   return f;
 }
@@ -303,13 +294,12 @@ SparseContact::Solution SparseContact::solve(const Vector& force, const Vector& 
     for (Eigen::Index i = 0; i < rows; ++i)
       if (active_[i] == 0) dp[i] = 0;
     solution.change += dp;
-    const auto largest = [](const Vector& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; };
+    const auto largest = [](const Vector& v) { return v.lpNorm<Eigen::Infinity>(); };
     solution.forceNoise = largest(dp);
     solution.motionNoise = largest(moved);
-    const auto part = [](double a, double b) { return a == 0 ? 0 : a / b; };
     const double length = given + largest(x.head(n)) + largest(motionsAcross * solution.rigid);
-    const double change = part(solution.forceNoise, largest(p0) + largest(p0 + solution.change)) +
-                          part(solution.motionNoise, length);
+    const double change = ratio(solution.forceNoise, largest(p0) + largest(p0 + solution.change)) +
+                          ratio(solution.motionNoise, length);
     if (!(change < before / 2)) ++stalled;
     if (!(change > enough) || stalled > 2) break;
     before = std::min(before, change);

@@ -80,7 +80,6 @@ class SparseContact {
   template <class Visit>
   void forEachPair(Visit visit) const;
   [[nodiscard]] Vector stiffnessTimes(const Vector& d) const;
-  void analyse();
 
   LinearEngine engine_;
   Threads& threads_;

@@ -88,33 +88,6 @@ class SparseSets final : public ContactSets {
   SparseContact::Solution solved_;
 };
 
-/// Semismooth Newton steps: forces that pull are dropped and what overlaps is closed, all at once. That takes
-/// a few sets where bodies are thick, and may go round where they are thin. \returns the set with the fewest
-/// wrong signs, for principal pivoting to go on from.
-std::vector<char> startingSet(SparseSets& contact, const std::vector<char>& active) {
-  constexpr int most = 20;
-  constexpr int patience = 3;
-  constexpr double fewer = 0.9;
-  ContactSolution solution;
-  solution.active = active;
-  std::vector<char> best = active;
-  size_t least = std::numeric_limits<size_t>::max();
-  contact.centre(Vector::Zero(contact.problem().G.cols()));
-  for (int left = patience, k = 0; left > 0 && k < most && contact.solveOn(solution); ++k) {
-    const ContactSets::Signs signs = contact.signsOf(solution);
-    const size_t wrong = signs.pulls.size() + signs.overlaps.size();
-    left = static_cast<double>(wrong) < fewer * static_cast<double>(least) ? patience : left - 1;
-    if (wrong < least) {
-      least = wrong;
-      best = solution.active;
-    }
-    if (wrong == 0) break;
-    for (const int i : signs.pulls) solution.active[i] = 0;
-    for (const int i : signs.overlaps) solution.active[i] = 1;
-  }
-  return best;
-}
-
 }  // namespace
 
 ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& force,
@@ -127,7 +100,7 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
     if (idle[i] != 0) active[i] = 0;
   const int before = matrix.factorisations();
   SparseSets contact(matrix, problem, idle, force, slack, p0, balance);
-  ContactSolution solution = solveBalanced(contact, startingSet(contact, active));
+  ContactSolution solution = solveBalanced(contact, active);
   solution.idle = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   solution.work = matrix.factorisations() - before;
   motion = contact.motion();

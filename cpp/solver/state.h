@@ -89,24 +89,24 @@ struct StepSolutions {
 enum class Status { converged, failed, unheld };
 
 /// The method that solved a step, in the order of cost (docs/theory.md).
-enum class Rung { rest, newton, continuation, interiorPoint, path, damping, penaltyDuality, cut };
+enum class SolutionMethod { rest, newton, continuation, interiorPoint, path, penaltyDuality, cut };
 
 /// As in history.csv and summary.json.
-const char* nameOf(Rung rung);
+const char* nameOf(SolutionMethod method);
 
 struct StepReport {
   int step = 0;
   double time = 0;      ///< at the end of the step [s]
   double timeStep = 0;  ///< [s]
   Status status = Status::converged;
-  std::string reason;        ///< one line when the status is not converged
-  Rung rung = Rung::newton;  ///< the hardest of its parts
-  bool guarded = false;      ///< done again as two half steps of backward Euler
-  int rejections = 0;        ///< attempts that were not good enough or could not be solved
-  double estimate = 0;       ///< of the error in time so far, relative; 0 with equal steps
-  int iterations = 0;        ///< linear solves with a new tangent
-  int factorisations = 0;    ///< matrices factorised, all bodies
-  int active = 0;            ///< active contact nodes, and how many joined and left in this step
+  std::string reason;                              ///< one line when the status is not converged
+  SolutionMethod method = SolutionMethod::newton;  ///< the hardest of its parts
+  bool guarded = false;                            ///< done again as two half steps of backward Euler
+  int rejections = 0;      ///< attempts that were not good enough or could not be solved
+  double estimate = 0;     ///< of the error in time so far, relative; 0 with equal steps
+  int iterations = 0;      ///< linear solves with a new tangent
+  int factorisations = 0;  ///< matrices factorised, all bodies
+  int active = 0;          ///< active contact nodes, and how many joined and left in this step
   int joined = 0;
   int left = 0;
   double penetration = 0;   ///< integral of the positive part of the jump, all interfaces [m^2]

@@ -16,7 +16,7 @@ namespace {
 
 /// A tool has no nonmortar side.
 bool mayExchangeSides(const Model& model) {
-  return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const ContactInterface& each) {
+  return std::ranges::any_of(model.interfaces, [&](const ContactInterface& each) {
     return !model.bodies[each.pair().nonmortar.body].rigid() &&
            !model.bodies[each.pair().mortar.body].rigid();
   });
@@ -47,10 +47,7 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   const bool sparse = solvesSparse(model, options);
   std::vector<std::optional<CondensedBody>> bodies(model.bodies.size());
   const auto make = [&](int b) { bodies[b].emplace(model, b, firstRow_, options, threads_, sparse); };
-  if (model.inParts())  // what they do together they do body by body
-    for (size_t b = 0; b < bodies.size(); ++b) make(static_cast<int>(b));
-  else
-    threads_.forEach(static_cast<int>(bodies.size()), make);
+  threads_.forEach(static_cast<int>(bodies.size()), make);
   bodies_.reserve(bodies.size());
   for (size_t b = 0; b < bodies.size(); ++b) {
     bodies_.push_back(std::move(*bodies[b]));
@@ -63,8 +60,8 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   sparse_ = std::make_unique<SparseContact>(model, bodies_, firstRow_, options.linear, threads_);
 }
 
-void StepSystem::takeRows() {
-  forEachBody([&](int b) { bodies_[b].contact().takeRows(model_, b, firstRow_); });
+void StepSystem::updateConstraints() {
+  forEachBody([&](int b) { bodies_[b].contact().updateConstraints(model_, b, firstRow_); });
   joinMotions();
   contact_.along = {};
   findFriction();
@@ -78,7 +75,7 @@ Step StepSystem::step(const State& state0, const StepData& data) {
     if (!body.material().needsTotalStrain()) continue;
     Matrix& strain = step.strains0[b];
     strain = totalStrain(body.material(), state0.bodies[b]);
-    if (const Matrix* shift = step.shift(b)) strain += *shift;
+    if (const Matrix* explicitStrain = step.explicitStrain(b)) strain += *explicitStrain;
     if (!data.thermal.empty()) strain -= data.thermal[b];
   }
   return step;
@@ -94,7 +91,6 @@ const std::vector<Vector>& StepSystem::loadsAt(double time) {
   Loads& loads = loads_[latestLoads_];
   loads = {time, {}};
   for (const Body& body : model_.bodies) loads.forces.push_back(body.load(time));
-  for (size_t b = 0; b < model_.bodies.size(); ++b) model_.sumAtNodes(b, loads.forces[b]);
   return loads.forces;
 }
 
@@ -112,11 +108,21 @@ std::vector<Vector> StepSystem::parted(const Vector& all) const {
   return parts;
 }
 
+void StepSystem::subtractContact(const std::vector<Vector>& p, const std::vector<Vector>& t,
+                                 std::vector<Vector>& force) const {
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    Vector& nonmortar = force[interface.pair().nonmortar.body];
+    Vector& mortar = force[interface.pair().mortar.body];
+    interface.subtractForces(p[k], nonmortar, mortar);
+    if (interface.hasFriction()) interface.subtractFriction(t[k], nonmortar, mortar);
+  }
+}
+
 StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, const LawOf& lawOf) {
   std::vector<double> residual(bodies_.size());
-  forEachBody([&](int b) { bodies_[b].linearise(step.shift(b), iterate.bodies[b], lawOf(b)); });
-  if (model_.inParts()) agreeOnLaws(step, iterate);
-  const double motion = model_.largest(largestMotion(iterate));
+  forEachBody([&](int b) { bodies_[b].linearise(step.explicitStrain(b), iterate.bodies[b], lawOf(b)); });
+  const double motion = largestMotion(iterate);
   forEachBody([&](int b) {
     residual[b] = bodies_[b].residual(step.state0.bodies[b].stress, iterate.bodies[b], motion);
   });
@@ -140,30 +146,16 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
   return linearise(step, iterate, [&](int b) { return law(step, b, weight, anticipate); });
 }
 
-std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterate, double weight) {
+std::optional<StuckPlace> StepSystem::worstPoint(const Step& step, Iterate& iterate, double weight) {
   linearise(step, iterate, weight, false);
   std::optional<StuckPlace> place;
-  const double motion = model_.largest(largestMotion(iterate));
+  const double motion = largestMotion(iterate);
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const auto [point, residual] =
-        bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b], motion);
-    const double worst = model_.largest(point < 0 ? 0 : residual);
-    if (worst == 0 || worst <= (place ? place->residual : options_.tolerance)) continue;
+        bodies_[b].worstPoint(step.state0.bodies[b].stress, iterate.bodies[b], motion);
+    if (point < 0 || residual <= (place ? place->residual : options_.tolerance)) continue;
     const Body& body = model_.bodies[b];
-    std::array<double, 4> at{-1, 0, 0, 0};  // of the rank that has it, or the last of them
-    if (point >= 0 && residual == worst) {
-      const int triangle = point / body.pointsOfTriangle();
-      at[0] = model_.inParts() ? model_.parts[b].cut.triangles[triangle] : triangle;
-    }
-    const double number = model_.largest(at[0]);
-    if (number == at[0]) {
-      const SpacePoint there = body.placeOfPoint(point);
-      at = {number, there.x(), there.y(), there.z()};
-    } else {
-      at = {0, 0, 0, 0};
-    }
-    model_.sum(at.data(), at.size());
-    place = {static_cast<int>(b), static_cast<int>(number), SpacePoint(at[1], at[2], at[3]), worst,
+    place = {static_cast<int>(b), point / body.pointsOfTriangle(), body.placeOfPoint(point), residual,
              step.data.time};
   }
   return place;
@@ -175,7 +167,6 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->olderFactors_ = false;
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
-  for (size_t b = 0; b < bodies.size() && system_->model_.inParts(); ++b) bodies[b].join(factors[b]);
   // After a restart there is neither yet, though factors were counted before it.
   bool changed = system_->sparse() ? !system_->sparse_->taken() : contact.W.rows() != system_->conditions();
   bool regular = true;
@@ -216,19 +207,12 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Vector> force(bodies.size());
   system_->forEachBody(
-      [&](int b) { force[b] = bodies[b].leftOver(step.loads[b], bodies[b].law().predictor); });
+      [&](int b) { force[b] = step.loads[b] - model.bodies[b].internalForce(bodies[b].law().predictor); });
   double& forceScale = system_->contact_.forceScale;
   forceScale = 0;
   for (const Vector& before : step.state0.contactForce)
     if (before.size() > 0) forceScale = std::max(forceScale, before.maxCoeff());
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactPair& pair = model.interfaces[k].pair();
-    model.interfaces[k].subtractForces(iterate.contactForce[k], force[pair.nonmortar.body],
-                                       force[pair.mortar.body]);
-    if (model.interfaces[k].hasFriction())
-      model.interfaces[k].subtractFriction(iterate.frictionForce[k], force[pair.nonmortar.body],
-                                           force[pair.mortar.body]);
-  }
+  system_->subtractContact(iterate.contactForce, iterate.frictionForce, force);
   Condensed result(*system_, Key{});
   result.slack = -joined(gaps(model, step.gap0(), iterate), slips(model, iterate));
   result.p0 = joined(iterate.contactForce, iterate.frictionForce);
@@ -243,8 +227,7 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     const ContactDofs& dofs = bodies[b].contact();
     if (dofs.none()) continue;
     if (!system_->sparse()) result.slack -= dofs.C * motion[b];
-    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) =
-        dofs.rigidForce(model, static_cast<int>(b), step.loads[b]);
+    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
   }
   result.balance -= system_->contact_.G.transpose() * result.p0;
   return result;
@@ -286,12 +269,12 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     });
   });
   iterate.contactForce = system_->parted(p0 + contact.change);
-  iterate.wrongForce = 0;
+  iterate.largestTension = 0;
   for (size_t k = 0; k < iterate.contactForce.size(); ++k) {
     Vector& p = iterate.contactForce[k];
     const auto first = contact.active.begin() + system_->firstRow_[k];
     iterate.active[k].assign(first, first + p.size());
-    if (p.size() > 0) iterate.wrongForce = std::max(iterate.wrongForce, -p.minCoeff());
+    if (p.size() > 0) iterate.largestTension = std::max(iterate.largestTension, -p.minCoeff());
     p = p.cwiseMax(0);
   }
   Eigen::Index row = 0;
@@ -314,14 +297,13 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
 }
 
 bool StepSystem::completes() const {
-  const bool inSpace = std::any_of(model_.bodies.begin(), model_.bodies.end(),
-                                   [](const Body& body) { return body.dimension() == 3; });
-  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction() && !model_.inParts();
+  const bool inSpace =
+      std::ranges::any_of(model_.bodies, [](const Body& body) { return body.dimension() == 3; });
+  return inSpace && uniqueSolutions_ && !sparse() && !hasFriction();
 }
 
 bool StepSystem::inSinglePrecision() const {
-  return std::any_of(bodies_.begin(), bodies_.end(),
-                     [](const CondensedBody& body) { return body.inSinglePrecision(); });
+  return std::ranges::any_of(bodies_, &CondensedBody::inSinglePrecision);
 }
 
 void StepSystem::useNextEngine() {

@@ -1,7 +1,7 @@
 // The linearised step. Displacement increment and stress are both unknowns, so a triangle needs no local
 // solve:
 //
-//   E^-1 (s - s0) + weight G(s) = B du - shift    in every triangle          (material)
+//   E^-1 (s - s0) + weight G(s) = B du - explicitStrain    in every triangle          (material)
 //   sum |T| B' s + C' p = F(t1)                   at every free dof          (equilibrium)
 //   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0    at every nonmortar node    (contact)
 //
@@ -43,7 +43,7 @@ constexpr double balanceTolerance = 1e-11;
 constexpr double residualTolerance = 1e-8;
 
 /// What bodies of a linear problem respond to.
-struct Disturbance {
+struct LinearLoad {
   std::vector<Matrix> strain;       ///< per body, added in every triangle (components x points)
   std::vector<Vector> slip = {};    ///< per interface, by which the nodes that stick slip [m]; empty for none
   std::vector<Vector> force = {};   ///< per body (dofs) [N/m]; empty for none
@@ -73,7 +73,7 @@ class StepSystem {
   [[nodiscard]] const SolverOptions& options() const { return options_; }
 
   /// Takes the rows of interfaces that have followed the bodies; what belongs to bodies alone is kept.
-  void takeRows();
+  void updateConstraints();
 
   /// The data of a step from a state; valid until loads at two other times have been asked for.
   [[nodiscard]] Step step(const State& state0, const StepData& data);
@@ -91,7 +91,7 @@ class StepSystem {
   class Factorised;
   class Condensed;
 
-  /// The residuals of an iterate, with the law as it was linearised last. Collective.
+  /// The residuals of an iterate, with the law as it was linearised last.
   /// \param repeated  linear solves do not reduce the residuals: where nothing loads the bodies and all
   ///     forces are rounding, residuals are none
   [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual,
@@ -99,17 +99,21 @@ class StepSystem {
 
   /// What the rounding of the last linear solve left of the gaps of closed conditions, each as the force that
   /// would close it by itself, over the largest contact force; 0 with friction [-].
-  [[nodiscard]] double opened(const Step& step, const Iterate& iterate) const;
+  [[nodiscard]] double gapRoundoff(const Step& step, const Iterate& iterate) const;
 
   /// W_ii of all conditions, as linearised last; none before. [m^2/N]
   [[nodiscard]] Vector compliances() const;
 
   /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
-  std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
+  std::optional<StuckPlace> worstPoint(const Step& step, Iterate& iterate, double weight);
 
   /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
   std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on,
                                 const std::vector<Vector>& slip = {});
+  /// Friction forces at the start of a step or, of nodes that begin to slip in it, where they do
+  /// (slip_onset.cpp), per interface [N/m].
+  std::vector<Vector> frictionAtSlip(const State& state0, const std::vector<Vector>& gap0,
+                                     const Iterate& end);
 
   /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives
   /// it: the bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has
@@ -134,6 +138,8 @@ class StepSystem {
 
   /// One vector of all conditions from those of the interfaces, and the reverse.
   /// \param along  the line, of interfaces with friction: they come after all others.
+  /// The last tangent's, factorised anew where points began or ceased to flow since.
+  Factorised currentFactors();
   [[nodiscard]] static Vector joined(const std::vector<Vector>& across,
                                      const std::vector<Vector>& along = {});
   [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
@@ -151,6 +157,9 @@ class StepSystem {
  private:
   void requireHeld();
   void joinMotions();
+  /// Takes the contact forces, across the line and along it, from the forces on the bodies (dofs).
+  void subtractContact(const std::vector<Vector>& p, const std::vector<Vector>& t,
+                       std::vector<Vector>& force) const;
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
   [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
@@ -159,7 +168,7 @@ class StepSystem {
                                                  const Iterate& on) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
-  [[nodiscard]] std::vector<int> freeAlong(const Iterate& solution) const;
+  [[nodiscard]] std::vector<int> nonStickingRows(const Iterate& solution) const;
   [[nodiscard]] int slipOf(const Iterate& solution, int row) const;
   [[nodiscard]] Vector motionOf(const Vector& z, size_t body) const {
     return z.segment(firstMotion_[body], firstMotion_[body + 1] - firstMotion_[body]);
@@ -169,9 +178,7 @@ class StepSystem {
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
-  /// What the law requires at the points of all ranks. Collective.
-  void agreeOnLaws(const Step& step, const Iterate& iterate);
-  /// CondensedBody::condense, expand and what joins them; take(body, displacement).
+  /// CondensedBody::condense and expand; take(body, displacement).
   std::vector<Vector> condenseBodies(const std::vector<Vector>& force);
   void expandBodies(const ContactSolution& contact, const std::function<void(int, const Vector&)>& take);
 
@@ -232,7 +239,7 @@ class StepSystem::Factorised {
   ///   s = H^-1 (B d - strain),   sum |T| B' s + C_A' p = force,   C_A d = across;
   /// with friction t of sticking nodes is free, and that of slipping nodes +-mu p,
   /// or, of the adjoint problem, that of slipping nodes is 0, and C_A d +- mu T d = 0 there.
-  [[nodiscard]] std::vector<Response> respond(const Disturbance& to, const Iterate& on) const;
+  [[nodiscard]] std::vector<Response> respond(const LinearLoad& to, const Iterate& on) const;
 
  private:
   StepSystem* system_;

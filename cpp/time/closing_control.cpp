@@ -9,13 +9,13 @@ namespace mortier {
 /// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
 /// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
 /// step nor its stages show by how much more it grows.
-double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
+double Controller::closingTimeError(StepTaker& taker, double t, double k, StepReport& report) const {
   if (ends_.isBreak(t)) return 0;  // what comes after is another load
   const double end = std::min(t + k, ends_.breakAfter(t));
   const StepOutcome outcome = taker.attempt(end, Effort::little);
   report.iterations += outcome.iterations;
   report.factorisations += outcome.factorisations;
-  if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
+  if (!outcome.converged() || outcome.method == SolutionMethod::rest) return 0;
   return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
 
@@ -24,7 +24,7 @@ bool Controller::repeatInHalves(StepTaker& taker, StepTaker::Kept start, const S
   ControllerMemory& own = memory_.controller;
   second_.reset();
   double off = halve(taker, start, state, report);
-  if (off <= own.local && closing > 0) off += lateness(taker, state.time, closing, report);
+  if (off <= own.local && closing > 0) off += closingTimeError(taker, state.time, closing, report);
   if (off > own.local) {
     taker.goBack(std::move(start));
     own.pairEnd = 0;
@@ -49,7 +49,7 @@ double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const S
   }
   for (const double t1 : {start.first.time + (reached.time - start.first.time) / 2, reached.time}) {
     StepOutcome outcome = taker.attempt(t1);
-    if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome);
+    if (outcome.converged() && taker.flowReversed()) outcome = taker.guard(outcome);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {

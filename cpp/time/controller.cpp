@@ -7,7 +7,6 @@
 #include "base/digits.h"
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/ranks.h"
 
 namespace mortier {
 namespace {
@@ -31,8 +30,8 @@ Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& me
       memory_(memory),
       measure_(model),
       ends_(plan, memory.begin),
-      unseen_(unseenPart * std::sqrt(plan.tolerance)),
-      rough_(anyFriction(model)) {
+      dataTolerance_(unseenPart * std::sqrt(plan.tolerance)),
+      hasFriction_(anyFriction(model)) {
   for (const Body& body : model.bodies) flows_ = flows_ || !body.material().linear();
 }
 
@@ -71,7 +70,7 @@ void Controller::pilot(StepTaker& taker, State& state) {
     }
   };
   try {
-    withSharedFaults(Ranks::all(), walk);
+    walk();
   } catch (const DatumError&) {
     // The run ends there as well, and says so.
   }
@@ -122,7 +121,7 @@ bool Controller::beginAgain(State& state) {
   // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
   if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= error)
     own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
-  const double order = plan_.scheme == Scheme::backwardEuler || rough_ ? 1 : 2;
+  const double order = plan_.scheme == Scheme::backwardEuler || hasFriction_ ? 1 : 2;
   // Many small steps are the easier to foresee; of a run that did not end the error may still grow.
   const double next = ended ? (order == 1 ? 0.8 : aim) : (order == 1 ? 0.6 : 0.4);
   own.local *= std::max(least, std::pow(next * plan_.tolerance / error, (order + 1) / order));
@@ -151,7 +150,7 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   addTo(own.slip, 1, missed);
   addTo(own.strain, 1, flowed);
   if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
-  if (rough_) carrySlip(taker, taker.slipOf(response));
+  if (hasFriction_) carrySlip(taker, taker.slipOf(response));
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
@@ -214,7 +213,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   constexpr double late = 0.95;
   constexpr double shorter = 0.8;
   StepOutcome outcome = taker.attempt(t1, effort);
-  if (!outcome.converged() || outcome.rung == Rung::rest) return outcome;
+  if (!outcome.converged() || outcome.method == SolutionMethod::rest) return outcome;
   judgement = judge(taker, t0, t1);
   const bool turned = onsets > 0 && turnsTooFar(taker);
   if (turned || (onsets == mostOnsets && !judgement.good)) {
@@ -231,7 +230,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   const bool turns = t0 == memory_.begin || ends_.isBreak(t0);
   constexpr double rounding = 1e-4;  // of what a step may be wrong by: many steps of that are nothing too
   const bool changes = judgement.change > rounding * memory_.controller.local;
-  if (!changes || (!judgement.good && !turns) || !taker.turned()) return outcome;
+  if (!changes || (!judgement.good && !turns) || !taker.flowReversed()) return outcome;
   outcome = taker.guard(outcome, effort);
   if (outcome.converged()) judgement = judge(taker, t0, t1);
   return outcome;
@@ -242,7 +241,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
 bool Controller::stepsTooSmall(double t, double k) const {
   constexpr int many = 100;
   constexpr int often = 4;  // one step in so many
-  const auto cut = memory_.run.rungs.find(nameOf(Rung::cut));
+  const auto cut = memory_.run.rungs.find(nameOf(SolutionMethod::cut));
   if (cut == memory_.run.rungs.end() || cut->second < many || often * cut->second < memory_.run.steps)
     return false;
   const double pace = (t - memory_.begin) / memory_.run.steps;
@@ -262,12 +261,12 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
   };
   while (true) {
     const bool second = inPair(state.time);
-    const double end = second ? own.pairEnd : ends_.next(state.time, own.timeStep, unseen_);
+    const double end = second ? own.pairEnd : ends_.next(state.time, own.timeStep, dataTolerance_);
     const double k = end - state.time;
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, end,
                     "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
-    const bool hurried = flowing >= allFlow && failures < easy && !rough_;
+    const bool hurried = flowing >= allFlow && failures < easy && !hasFriction_;
     Attempt step = attemptOfPair(taker, state.time, end, hurried ? Effort::little : Effort::usual,
                                  flowing == 0 ? mostOnsets - report.rejections : 0);
     const StepOutcome& outcome = step.outcome;
@@ -276,7 +275,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {
-      report.rung = Rung::cut;
+      report.method = SolutionMethod::cut;
       ++report.rejections;
       // The end of equilibrium is approached as closely as the tolerance asks.
       if (outcome.unheld() && k <= plan_.tolerance * (plan_.end - memory_.begin))
@@ -306,13 +305,14 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     std::optional<StepTaker::Kept> kept;
     // What passes within a step that begins where the data turn its stages do not have either.
     const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
-    const bool closes = outcome.rung != Rung::rest && taker.closes();
-    const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
-                         flows_ && !isShortest(state.time, k);
+    const bool closes = outcome.method != SolutionMethod::rest && taker.closes();
+    const bool looksOn =
+        (closes || taker.guarded() || (begins && !hasFriction_ && outcome.method != SolutionMethod::rest)) &&
+        flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
     const double twice = std::exp2(tableau(plan_.scheme).stages.size());  // the error of a step twice as long
     if (looksOn) multiply(step.judgement.local, 1 / twice);
-    if (outcome.rung != Rung::rest)
+    if (outcome.method != SolutionMethod::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
           second ? std::exchange(own.missed, {}) : SlipAndWork());
     taker.commit();
@@ -338,7 +338,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     report.estimate = relative(own.error, own.scale);
     report.guarded = taker.guarded();
     report.certificate = outcome.certificate;
-    if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;
+    if (outcome.method != SolutionMethod::newton && report.method == SolutionMethod::newton)
+      report.method = outcome.method;
     return;
   }
 }

@@ -87,7 +87,7 @@ class Controller {
   /// the step that may be
   bool repeatInHalves(StepTaker& taker, StepTaker::Kept start, const State& state, double closing,
                       StepReport& report, double& factor);
-  [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
+  [[nodiscard]] double closingTimeError(StepTaker& taker, double t, double k, StepReport& report) const;
   double halve(StepTaker& taker, const StepTaker::Kept& start, const State& state, StepReport& report);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   /// What that is of what is computed, relative.
@@ -102,9 +102,9 @@ class Controller {
   MarchMemory& memory_;
   ErrorMeasure measure_;
   StepEnds ends_;
-  double unseen_ = 0;   ///< part of a datum's range that a step may miss
-  bool rough_ = false;  ///< whether there is friction
-  bool flows_ = false;  ///< whether any body can flow
+  double dataTolerance_ = 0;  ///< part of a datum's range that a step may miss
+  bool hasFriction_ = false;  ///< whether there is friction
+  bool flows_ = false;        ///< whether any body can flow
   /// The second step of a pair whose first one has been taken: solved, not committed.
   std::optional<Attempt> second_;
 };

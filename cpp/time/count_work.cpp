@@ -4,12 +4,16 @@
 // stresses at both ends,
 //   1/2 (f0 + f1) . du = U1 - U0 + 1/2 sum |T| (s0 + s1) : e,   f = sum |T| B' s,
 // so the work of all forces on a body is taken as that of their means (trapezoidal rule, which is exact for
-// forces that are linear in the displacement), and in elastic bodies it is what is stored, to rounding. The
-// dissipation takes the weights of the scheme, by which it is never negative:
+// forces that are linear in the displacement), and in elastic bodies it is what is stored, to rounding.
+// Contact does no work across the line, and along it what friction dissipates. Where a node closes, opens or
+// begins to slip within the step, or directions change, the product of the means is another one: the
+// difference is taken of contact and of loads and supports, of each body in the part that they do of all
+// work. The dissipation takes the weights of the scheme, by which it is never negative:
 //   D1 - D0 = sum |T| k sum b_i (s_i - X_i) : G_i,   X the back stress of hardening: X : eps_v / 2 is stored.
 // Thermal strain that changes by a adds 1/2 sum |T| (s0 + s1) : a on the right: less that is its work.
 // docs/theory.md has the difference of both where bodies flow.
-#include <array>
+
+#include <numeric>
 
 #include "material/back_stress.h"
 #include "time/nodal_forces.h"
@@ -19,14 +23,12 @@ namespace mortier {
 namespace {
 
 /// r . du, r the part of `forces` along the directions that supports hold.
-double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& owned,
-                      const Vector& du) {
+double workOfSupports(const Body& body, const Vector& forces, const Vector& du) {
   if (body.rigid()) return body.heldForce(forces).dot(body.motionOf(du));
   // Equations are orthonormal directions: what they leave is held.
   if (body.space() != nullptr) return forces.dot(du) - body.gather(forces).dot(body.gather(du));
   double work = 0;
   for (const NodeSupport& support : body.supports().nodes()) {
-    if (!owned.empty() && owned[support.node] == 0) continue;
     const Point force = forces.segment<2>(2 * support.node);
     const Point motion = du.segment<2>(2 * support.node);
     const Point& n = support.directions[0];
@@ -80,6 +82,7 @@ double StepTaker::dissipated(size_t b) const {
 }
 
 void StepTaker::countWork() {
+  const Iterate& end = solutions_.back();
   // Rows that follow the bodies were others at the start.
   std::vector<ContactInterface> atEnd;
   std::vector<Vector> contactAtStart;
@@ -91,42 +94,47 @@ void StepTaker::countWork() {
     contactAtStart.push_back(
         contactForces(model_, state_.contactForce, state_.frictionForce, static_cast<int>(b)));
   if (follows()) model_.interfaces = std::move(atEnd);
+  std::vector<double> external;
+  double means = 0;  // of contact, on all bodies
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
-    // Nodes of which this rank adds what all ranks have.
-    const std::vector<char> owned = model_.inParts() ? model_.parts[b].owned : std::vector<char>();
-    const auto counted = [&](Vector nodal) {
-      for (size_t node = 0; node < owned.size(); ++node)
-        if (owned[node] == 0) nodal.segment<2>(2 * static_cast<Eigen::Index>(node)).setZero();
-      return nodal;
-    };
     const Vector du = solutions_.back().bodies[b].increment.value();
-    const Iterate& end = solutions_.back();
-    const Vector contact0 = counted(contactAtStart[b]);
+    const Vector contact0 = contactAtStart[b];
     const Vector contact1 = contactForces(model_, end.contactForce, end.frictionForce, index);
     const Vector load = body.load(t1_);
     // What loads and supports exert: at the start what the stress balances, as loads may begin at once.
     const Vector before = body.internalForce(state_.bodies[b].stress) + contact0;
-    Vector after = body.internalForce(solutions_.back().bodies[b].stress) - load;
-    model_.sumAtNodes(b, after);
-    after += contact1;
-    std::array<double, 4> sums{};
-    auto& [external, contact, dissipation, thermal] = sums;
-    external = before.dot(du) + load.dot(du) + workOfSupports(body, after, owned, du);
-    contact = contact0.dot(du) + counted(contact1).dot(du);
-    dissipation = dissipated(b);
+    const Vector after = body.internalForce(end.bodies[b].stress) - load + contact1;
+    external.push_back((before.dot(du) + load.dot(du) + workOfSupports(body, after, du)) / 2);
+    const double contact = contact0.dot(du) + contact1.dot(du);
+    double thermal = 0;
     if (body.heated()) {
       const Matrix change = body.thermalStrain(t1_) - state_.bodies[b].thermalStrain;
       const Matrix mean = (state_.bodies[b].stress + end.bodies[b].stress) / 2;
       for (int i = 0; i < body.points(); ++i) thermal += body.weights()[i] * mean.col(i).dot(change.col(i));
     }
-    model_.sum(sums.data(), sums.size());
     WorkDone& work = state_.bodies[b].work;
-    work.external += external / 2;
+    work.external += external[b];
     work.contact -= contact / 2;
-    work.dissipated += dissipation;
+    means -= contact / 2;
+    work.dissipated += dissipated(b);
     work.thermal -= thermal;
+  }
+  // Of what contact does: friction dissipates, distances that change and conditions that yield do work.
+  const std::vector<double> friction = dissipatedByFriction();
+  double work = gapWork(state_, end) - std::accumulate(friction.begin(), friction.end(), 0.0);
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const Vector& p0 = state_.contactForce[k];
+    const Vector& p1 = end.contactForce[k];
+    if (model_.interfaces[k].yields()) work -= (p0 + p1).dot(model_.interfaces[k].yielded(p1 - p0)) / 2;
+  }
+  double all = 0;
+  for (const double each : external) all += std::abs(each);
+  for (size_t b = 0; b < external.size() && all > 0; ++b) {
+    const double part = (work - means) * std::abs(external[b]) / all;
+    state_.bodies[b].work.external -= part;
+    state_.bodies[b].work.contact += part;
   }
 }
 

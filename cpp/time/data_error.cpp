@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "fem/data_misfit.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier {
 namespace {
@@ -55,7 +55,7 @@ double halfNorm(const Misfit& w) {
 
 }  // namespace
 
-bool SpaceErrorEstimator::hasVaryingData(const Body& body) {
+bool MeshErrorEstimator::hasVaryingData(const Body& body) {
   const Conditions& data = body.conditions();
   const auto any = [&](const auto& all) {
     return std::any_of(all.begin(), all.end(),
@@ -65,8 +65,8 @@ bool SpaceErrorEstimator::hasVaryingData(const Body& body) {
          (body.heated() && unresolved(body, data.temperature));
 }
 
-void SpaceErrorEstimator::addAtEdge(size_t b, size_t edge, double energy, bool needsTotalStrain,
-                                    const State& state, Vector& error) const {
+void MeshErrorEstimator::addAtEdge(size_t b, size_t edge, double energy, bool needsTotalStrain,
+                                   const State& state, Vector& error) const {
   const Body& body = model_.bodies[b];
   const int index = static_cast<int>(b);
   const int triangle =
@@ -78,9 +78,8 @@ void SpaceErrorEstimator::addAtEdge(size_t b, size_t edge, double energy, bool n
       (needsTotalStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
 }
 
-void SpaceErrorEstimator::addTractions(size_t b,
-                                       const std::vector<std::pair<size_t, ResolvedEdge>>& tractions,
-                                       const State& state, Vector& error) const {
+void MeshErrorEstimator::addTractions(size_t b, const std::vector<std::pair<size_t, ResolvedEdge>>& tractions,
+                                      const State& state, Vector& error) const {
   const Body& body = model_.bodies[b];
   std::vector<LineEdge> edges;
   for (const auto& [e, traction] : tractions) {
@@ -98,7 +97,7 @@ void SpaceErrorEstimator::addTractions(size_t b,
   }
 }
 
-void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error) const {
+void MeshErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error) const {
   const Body& body = model_.bodies[b];
   const TriangleMesh& mesh = body.mesh();
   const auto forEachEdge = [&](int label, const auto& work) {
@@ -121,7 +120,7 @@ void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& erro
   }
 }
 
-void SpaceErrorEstimator::addTriangleData(size_t b, double t, bool steady, Vector& error) const {
+void MeshErrorEstimator::addTriangleData(size_t b, double t, bool steady, Vector& error) const {
   constexpr double shear = 2.6;  // over the compliance along an axis
   const Body& body = model_.bodies[b];
   const Conditions& data = body.conditions();
@@ -153,7 +152,7 @@ void SpaceErrorEstimator::addTriangleData(size_t b, double t, bool steady, Vecto
     });
 }
 
-std::vector<SpaceErrorEstimator::GivenGap> SpaceErrorEstimator::givenGaps(size_t k, double t) const {
+std::vector<MeshErrorEstimator::GivenGap> MeshErrorEstimator::givenGaps(size_t k, double t) const {
   const ContactInterface& contact = model_.interfaces[k];
   const auto& [nonmortar, mortar, coupling] = contact.pair();
   const Body& body = model_.bodies[nonmortar.body];
@@ -169,8 +168,8 @@ std::vector<SpaceErrorEstimator::GivenGap> SpaceErrorEstimator::givenGaps(size_t
   return gaps;
 }
 
-void SpaceErrorEstimator::addGivenGaps(size_t k, const State& state,
-                                       std::vector<ErrorEstimate>& estimates) const {
+void MeshErrorEstimator::addGivenGaps(size_t k, const State& state,
+                                      std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[k];
   const auto& [nonmortar, mortar, coupling] = contact.pair();
   const std::vector<GivenGap> moving =
@@ -199,7 +198,7 @@ void SpaceErrorEstimator::addGivenGaps(size_t k, const State& state,
   }
 }
 
-void SpaceErrorEstimator::readData() {
+void MeshErrorEstimator::readData() {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     steadyData_.emplace_back();
@@ -215,7 +214,7 @@ void SpaceErrorEstimator::readData() {
     givenGaps_.push_back(model_.interfaces[k].given().inTime ? std::vector<GivenGap>() : givenGaps(k, 0));
 }
 
-void SpaceErrorEstimator::addData(const State& state, std::vector<ErrorEstimate>& estimates) const {
+void MeshErrorEstimator::addData(const State& state, std::vector<ErrorEstimate>& estimates) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     if (steadyData_[b].size() == 0) continue;
     estimates[b].error += steadyData_[b];

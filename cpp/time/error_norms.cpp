@@ -42,12 +42,11 @@ void addTo(std::vector<Response>& sum, const std::vector<Response>& part) {
   }
 }
 
-ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyFriction(model)) {
+ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), hasFriction_(anyFriction(model)) {
   for (const Body& body : model.bodies) {
     for (const double weight : body.weights()) area_ += weight;
     extent_ = std::max(extent_, body.extent());
   }
-  area_ = model.sum(area_);
 }
 
 ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t body) const {
@@ -90,15 +89,10 @@ ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
     strain += norms.strain;
     displacement += meanSquare(state.bodies[b].displacement, b);
   }
-  std::array<double, 3> sums{stress, displacement, strain};
-  model_.sum(sums.data(), sums.size());
-  stress = sums[0];
-  displacement = sums[1];
-  strain = sums[2];
   if (strain > 0)
     stress = std::max(stress, stress / strain * displacement * std::pow(roundedMotion / extent_, 2));
   return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
-          rough_ ? std::max(state.frictionWork, little * stress) : 0};
+          hasFriction_ ? std::max(state.frictionWork, little * stress) : 0};
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
@@ -108,9 +102,7 @@ ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
     stress += normsOf(error[b].stress, b).energy;
     displacement += meanSquare(error[b].displacement, b);
   }
-  std::array<double, 2> sums{stress, displacement};
-  model_.sum(sums.data(), sums.size());
-  return {std::sqrt(sums[0]), std::sqrt(sums[1]), 0};
+  return {std::sqrt(stress), std::sqrt(displacement), 0};
 }
 
 }  // namespace mortier

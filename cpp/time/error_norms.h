@@ -41,7 +41,7 @@ class ErrorMeasure {
   [[nodiscard]] double meanSquare(const Vector& displacement, size_t body) const;
 
   const Model& model_;
-  bool rough_;
+  bool hasFriction_;
   double area_ = 0;    ///< of all bodies [m^2]
   double extent_ = 0;  ///< of the largest [m]
 };

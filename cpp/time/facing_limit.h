@@ -1,5 +1,5 @@
 // The limit of what contact is: sides touch where their normals make 120 degrees or more
-// (contact/facing_line.h).
+// (contact/common_refinement.h).
 #pragma once
 
 #include <string>

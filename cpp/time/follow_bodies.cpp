@@ -163,7 +163,7 @@ std::vector<Vector> StepTaker::followTo(const std::vector<Vector>& increments, b
   std::vector<Vector> u;
   for (size_t b = 0; b < increments.size(); ++b) u.push_back(state_.bodies[b].displacement + increments[b]);
   follow(model_, u, keepRows);
-  system_.takeRows();
+  system_.updateConstraints();
   std::vector<Vector> gap0 = state_.gap;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
@@ -220,11 +220,10 @@ StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Eff
   if (const std::string motion = system_.contactHolds() ? repetitions.whatFalls(model_) : ""; !motion.empty())
     total.fail(Reason::unheld, "contact where the bodies are cannot hold " + motion);
   else
-    total.fail(
-        Reason::unconverged,
-        formatted("contact does not settle where the bodies are in %d repetitions: the last one is off "
-                  "by %g of the largest contact force",
-                  repetition - 1, off));
+    total.fail(Reason::unconverged,
+               formatted("contact geometry did not converge in %d updates: the last one is off "
+                         "by %g of the largest contact force",
+                         repetition - 1, off));
   return total;
 }
 

@@ -24,7 +24,7 @@ bool actsAtOnce(const Model& model, const State& state) {
     const double unknown = model.interfaces[k].dimension() == 3 ? model.interfaces[k].sagitta() : 0;
     acts = acts || (state.gap[k].array() > std::max(unknown, rounding * largest)).any();
   }
-  return model.any(acts);
+  return acts;
 }
 
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options) {
@@ -42,8 +42,6 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
     change = std::max(change, (state.bodies[b].stress - before.bodies[b].stress).cwiseAbs().maxCoeff());
     largest = std::max(largest, state.bodies[b].stress.cwiseAbs().maxCoeff());
   }
-  change = model.largest(change);
-  largest = model.largest(largest);
   return largest > 0 ? change / largest : 0;
 }
 

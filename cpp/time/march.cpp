@@ -9,7 +9,6 @@
 #include "base/digits.h"
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/ranks.h"
 #include "time/controller.h"
 #include "time/initial_balance.h"
 #include "time/measure.h"
@@ -29,10 +28,11 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     const double time = done + 1 == parts ? t1 : begin + (t1 - begin) * (done + 1) / parts;
     const Effort effort = parts == 1 ? Effort::all : Effort::usual;
     StepOutcome outcome = taker.attempt(time, effort);
-    if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome, effort);
+    if (outcome.converged() && taker.flowReversed()) outcome = taker.guard(outcome, effort);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
-    if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;
+    if (outcome.method != SolutionMethod::newton && report.method == SolutionMethod::newton)
+      report.method = outcome.method;
     if (outcome.converged()) {
       report.certificate = worse(report.certificate, outcome.certificate);
       report.guarded = report.guarded || taker.guarded();
@@ -51,7 +51,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     parts *= 2;
     done *= 2;
     ++report.rejections;
-    report.rung = Rung::cut;
+    report.method = SolutionMethod::cut;
   }
 }
 
@@ -65,7 +65,7 @@ void add(const StepReport& report, RunReport& run) {
   run.reason = report.reason;
   if (report.status != Status::converged) return;
   run.steps = report.step;
-  ++run.rungs[nameOf(report.rung)];
+  ++run.rungs[nameOf(report.method)];
   run.guarded += report.guarded ? 1 : 0;
   run.worst = worse(run.worst, report.certificate);
 }
@@ -117,7 +117,7 @@ std::string followSliding(const Model& model, const State& state, const TimePlan
           formatted(": the node at (%g, %g) slides by %g, past the end of label %d of body ", at.x(), at.y(),
                     sliding.pastBy, pair.mortar.label) +
           model.bodies[pair.mortar.body].name() +
-          ", and would go on to touch it: slips are taken as small (contact.sliding = \"allow\" goes on)";
+          ": the node leaves the contact line; set contact.sliding = \"finite\" (or \"allow\")";
   }
   return why;
 }
@@ -134,18 +134,16 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     report.step = run.steps + 1;
     const ActiveSets before = startingSets(state);
     try {
-      withSharedFaults(Ranks::all(), [&] {
-        if (controlled) {
-          controller.advance(taker, state, report);
-          run.timeError = controller.worst();
-        } else {
-          report.time = report.step == plan.steps
-                            ? plan.end
-                            : memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
-          report.timeStep = report.time - state.time;
-          advance(taker, state, report.time, report);
-        }
-      });
+      if (controlled) {
+        controller.advance(taker, state, report);
+        run.timeError = controller.worst();
+      } else {
+        report.time = report.step == plan.steps
+                          ? plan.end
+                          : memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+        report.timeStep = report.time - state.time;
+        advance(taker, state, report.time, report);
+      }
     } catch (const DatumError& error) {
       // Shorter steps would end before it, but none beyond.
       report.status = Status::failed;
@@ -189,7 +187,7 @@ void reportStart(const Model& model, const State& state, Threads& threads, March
   const auto atRest = [](const BodyState& body) {
     return body.displacement.isZero(0) && body.stress.isZero(0);
   };
-  if (model.any(!std::all_of(state.bodies.begin(), state.bodies.end(), atRest))) {
+  if (!std::all_of(state.bodies.begin(), state.bodies.end(), atRest)) {
     measure(model, state, threads, report);
     raise(memory.run.peaks, report);
   }
@@ -207,16 +205,16 @@ StepReport jump(const Model& model, const State& state, MarchMemory& memory, Ste
   StepReport report;
   const auto begin = Clock::now();
   try {
-    withSharedFaults(Ranks::all(), [&] {
-      if (!actsAtOnce(model, state)) return;
+    if (actsAtOnce(model, state)) {
       const StepOutcome outcome = taker.jump();
       report.iterations = outcome.iterations;
       report.factorisations = outcome.factorisations;
       report.certificate = outcome.certificate;
-      if (outcome.converged()) return;
-      report.status = outcome.unheld() ? Status::unheld : Status::failed;
-      report.reason = formatted("at t = %g: ", state.time) + outcome.detail;
-    });
+      if (!outcome.converged()) {
+        report.status = outcome.unheld() ? Status::unheld : Status::failed;
+        report.reason = formatted("at t = %g: ", state.time) + outcome.detail;
+      }
+    }
   } catch (const DatumError& error) {
     report.status = Status::failed;
     report.reason = error.what();

@@ -1,10 +1,12 @@
 #include "time/mean_pressure.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/quadrature_rules.h"
 #include "mesh/boundary_line.h"
 #include "mesh/triangle_mesh.h"
 #include "time/nodal_forces.h"
@@ -24,17 +26,16 @@ std::vector<std::pair<int, Point>> nodesAlong(const BoundaryLine& line) {
 
 /// How much longer curved sides are than the polygon of their ends, or larger as they turn about the axis.
 double stretchOfCurves(const BoundaryLine& line, bool ring) {
-  const double gauss = std::sqrt(0.6);
-  const std::array<std::pair<double, double>, 3> places{{{-gauss, 5 / 9.0}, {0, 8 / 9.0}, {gauss, 5 / 9.0}}};
   double curved = 0;
   double polygon = 0;
   for (size_t i = 0; i < line.middlePoints.size(); ++i) {
     const Point& a = line.points[i];
     const Point& m = line.middlePoints[i];
     const Point& b = line.points[i + 1];
-    for (const auto& [s, weight] : places) {
+    for (const auto& [at, weight] : gaussThree) {
+      const double s = 2 * at - 1;
       const Point x = s * (s - 1) / 2 * a + (1 - s * s) * m + s * (s + 1) / 2 * b;
-      curved += weight * ((s - 0.5) * a - 2 * s * m + (s + 0.5) * b).norm() * (ring ? x.x() : 1);
+      curved += 2 * weight * ((s - 0.5) * a - 2 * s * m + (s + 0.5) * b).norm() * (ring ? x.x() : 1);
     }
     polygon += (b - a).norm() * (ring ? (a.x() + b.x()) / 2 : 1);
   }
@@ -90,6 +91,17 @@ std::vector<Vector> meanPressureShares(const Model& model, int body, int label, 
     }
     shares.push_back(std::move(of));
   }
+  return shares;
+}
+
+std::vector<Vector> meanPressureShares(const Model& model, int body, int label) {
+  const TetrahedronMesh& mesh = model.bodies[body].space()->mesh();
+  const std::vector<SpacePoint>& x = mesh.vertices;
+  double area = 0;
+  for (const auto& [a, b, c] : trianglesOn(mesh, label)) area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
+  std::vector<Vector> shares;
+  for (const ContactInterface& interface : model.interfaces)
+    shares.emplace_back(Vector::Constant(interface.rows(), isSide(interface, body, label) ? 1 / area : 0));
   return shares;
 }
 

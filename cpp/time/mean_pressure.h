@@ -14,5 +14,7 @@ namespace mortier {
 /// Factors of the forces, by interfaces and rows [1/m], or of bodies that turn about an axis [1/m^2].
 /// \param body,label  the side of contact that the part is of
 std::vector<Vector> meanPressureShares(const Model& model, int body, int label, const LinePart& part);
+/// The same in space, of the whole side: 1 over its area [1/m^2].
+std::vector<Vector> meanPressureShares(const Model& model, int body, int label);
 
 }  // namespace mortier

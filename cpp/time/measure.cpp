@@ -96,13 +96,6 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
     report.displacement = std::max(report.displacement, largest);
     report.motion = std::max(report.motion, largest / body.extent());
   }
-  std::array<double, 3> sums{all.area, all.flowing, all.energy};
-  std::array<double, 3> most{all.vonMises, report.displacement, report.motion};
-  model.sum(sums.data(), sums.size());
-  model.largest(most.data(), most.size());
-  all = {sums[0], sums[1], most[0], sums[2]};
-  report.displacement = most[1];
-  report.motion = most[2];
   report.vonMises = all.vonMises;
   report.energy = all.energy;
   report.viscoplasticFraction = all.flowing / all.area;

@@ -10,15 +10,10 @@
 namespace mortier {
 
 const Body& OverlapCheck::body(size_t b) const {
-  return model_.inParts() ? *model_.parts[b].whole : model_.bodies[b];
-}
-
-int OverlapCheck::wholeNode(size_t b, int node) const {
-  return model_.inParts() ? model_.parts[b].cut.nodes[node] : node;
+  return model_.bodies[b];
 }
 
 OverlapCheck::OverlapCheck(const Model& model) : model_(model) {
-  if (model.inParts() && model.parts.front().whole == nullptr) return;  // another rank does it
   const size_t count = model.bodies.size();
   spaceOutlines_.reserve(count);  // surfaces point to them
   for (size_t b = 0; b < count; ++b) {
@@ -45,29 +40,6 @@ std::string BodyOverlap::text(int dimension) const {
   return "bodies " + bodies[0] + " and " + bodies[1] +
          formatted(" overlap by %.3g at (%.5g, %.5g", depth, place.x(), place.y()) +
          (dimension == 3 ? formatted(", %.5g)", place.z()) : ")");
-}
-
-BodyOverlap OverlapCheck::find(const std::vector<Vector>& u, const std::vector<Vector>& force, double time,
-                               double residual) const {
-  if (!model_.inParts()) return findHere(u, force, time, residual);
-  std::vector<Vector> whole;
-  for (size_t b = 0; b < u.size(); ++b) whole.push_back(gatheredNodes(model_.parts[b], *model_.ranks, u[b]));
-  BodyOverlap found;
-  if (model_.parts.front().whole != nullptr) found = findHere(whole, force, time, residual);
-  std::array<double, 7> values{found.area,
-                               found.depth,
-                               found.place.x(),
-                               found.place.y(),
-                               found.place.z(),
-                               found.explained ? 0.0 : 1.0,
-                               found.shallow ? 1.0 : 0.0};
-  model_.sum(values.data(), values.size());  // of one rank
-  found.area = values[0];
-  found.depth = values[1];
-  found.place = {values[2], values[3], values[4]};
-  found.explained = values[5] == 0;
-  found.shallow = values[6] != 0;
-  return found;
 }
 
 /// Of elements that are turned over nothing is inside.
@@ -105,7 +77,7 @@ std::vector<OverlapCheck::Between> OverlapCheck::between(size_t one, size_t othe
     const Vector distance = interface.distance(time);
     const bool given = interface.distanceIsGiven();
     for (int row = 0; row < interface.rows(); ++row) {
-      const int node = wholeNode(n, interface.nonmortarNodes()[row]);
+      const int node = interface.nonmortarNodes()[row];
       if (force[k][row] > 0) contact.pressing.push_back(places.of(n, node));
       if (interface.follows()) continue;
       const double drawn = distanceDrawn_[k][row];
@@ -207,8 +179,8 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
   }
 }
 
-BodyOverlap OverlapCheck::findHere(const std::vector<Vector>& u, const std::vector<Vector>& force,
-                                   double time, double residual) const {
+BodyOverlap OverlapCheck::find(const std::vector<Vector>& u, const std::vector<Vector>& force, double time,
+                               double residual) const {
   BodyOverlap worst;
   worst.time = time;
   Places places;

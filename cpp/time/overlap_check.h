@@ -27,7 +27,7 @@ class OverlapCheck {
  public:
   explicit OverlapCheck(const Model& model);
 
-  /// The deepest overlap, one that is not explained first. Collective.
+  /// The deepest overlap, one that is not explained first.
   /// \param u  displacements of the bodies
   /// \param force  per interface, nodal contact forces
   /// \param residual  of a solution that is allowed, over the extent of the bodies
@@ -71,9 +71,6 @@ class OverlapCheck {
   static AtPoint atPoint(const std::vector<Between>& contacts, size_t own, const std::array<int, 2>& labels,
                          const std::array<double, 2>& sizes, const std::array<std::array<int, 3>, 2>& nodes);
   [[nodiscard]] const Body& body(size_t b) const;
-  [[nodiscard]] int wholeNode(size_t b, int node) const;
-  [[nodiscard]] BodyOverlap findHere(const std::vector<Vector>& u, const std::vector<Vector>& force,
-                                     double time, double residual) const;
   [[nodiscard]] bool turnsOver(size_t b, const Places& places) const;
   [[nodiscard]] std::vector<Between> between(size_t one, size_t other, const Places& places,
                                              const std::vector<Vector>& force, double time) const;

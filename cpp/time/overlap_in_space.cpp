@@ -106,7 +106,7 @@ std::vector<OverlapCheck::Region> OverlapCheck::behindMeshes(const std::vector<B
   std::vector<Region> regions;
   for (const Between& contact : contacts) {
     const ContactInterface& interface = *contact.interface;
-    if (interface.dimension() != 3 || model_.inParts()) continue;
+    if (interface.dimension() != 3) continue;
     const bool given = interface.distanceIsGiven();
     const ContactInterface::SurfacePoints& points =
         given ? interface.surfacePoints() : interface.nearestPoints();

@@ -5,7 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "time/space_error.h"
+#include "base/quadrature_rules.h"
+#include "time/mesh_error.h"
 
 namespace mortier {
 namespace {
@@ -45,15 +46,10 @@ class OnEdge {
   }
 
  private:
-  /// By Gauss's rule of four points.
   void addSamples(const Piece& piece) {
-    constexpr std::array<std::array<double, 2>, 4> rule{{{0.06943184420297371, 0.1739274225687269},
-                                                         {0.33000947820757187, 0.3260725774312731},
-                                                         {0.66999052179242813, 0.3260725774312731},
-                                                         {0.93056815579702629, 0.1739274225687269}}};
     const double length = piece.at[1] - piece.at[0];
     if (!(length > 0)) return;
-    for (const auto& [s, weight] : rule)
+    for (const auto& [s, weight] : gaussFour)
       edge_.samples.push_back(
           {piece.at[0] + s * length, weight * length, (1 - s) * piece.values[0] + s * piece.values[1]});
   }
@@ -64,8 +60,8 @@ class OnEdge {
 
 }  // namespace
 
-void SpaceErrorEstimator::addPressures(size_t k, const State& state,
-                                       std::vector<ErrorEstimate>& estimates) const {
+void MeshErrorEstimator::addPressures(size_t k, const State& state,
+                                      std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[k];
   const ContactSide& mortar = contact.pair().mortar;
   if (model_.bodies[mortar.body].rigid()) return;

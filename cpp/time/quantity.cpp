@@ -49,7 +49,7 @@ PlaceOfLargest largestMises(const Model& model, const State& state, const Quanti
   return largest;
 }
 
-/// Integral of the row functions of the nodes that press, which sum to one.
+/// Integral of the row functions of the nodes that press, which sum to one; in space over the surface.
 double contactLength(const Model& model, const State& state, const Quantity& quantity) {
   double length = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
@@ -84,13 +84,15 @@ std::string Quantity::unit(const Units& units) const {
       [[fallthrough]];
     case Kind::contactLength:
       return units.length;
+    case Kind::contactArea:
+      return units.area();
     case Kind::largestPressure:
     case Kind::meanPressure:
     case Kind::largestMises:
       return units.stress;
     case Kind::reaction:
     case Kind::contactForce:
-      return component == Component::moment ? units.force : units.forcePerDepth();
+      return isMoment(component) ? units.moment() : units.forcePerDepth();
     default:
       return units.energyPerDepth();
   }
@@ -99,13 +101,18 @@ std::string Quantity::unit(const Units& units) const {
 bool ofLabel(Quantity::Kind kind) {
   using Kind = Quantity::Kind;
   return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement ||
-         kind == Kind::largestPressure || kind == Kind::contactLength || kind == Kind::frictionWork ||
-         kind == Kind::meanPressure;
+         kind == Kind::largestPressure || kind == Kind::contactLength || kind == Kind::contactArea ||
+         kind == Kind::frictionWork || kind == Kind::meanPressure;
 }
 
 bool hasComponent(Quantity::Kind kind) {
   using Kind = Quantity::Kind;
   return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement;
+}
+
+bool isMoment(Quantity::Component component) {
+  using enum Quantity::Component;
+  return component == momentX || component == momentY || component == momentZ;
 }
 
 bool needsWork(const Quantity& quantity) {
@@ -122,20 +129,16 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     const auto [of, isNew] = supporting.try_emplace(quantity.body);
     if (isNew) {
       const Body& body = model.bodies[quantity.body];
-      of->second = body.internalForce(state.bodies[quantity.body].stress) - body.load(state.time);
-      model.sumAtNodes(quantity.body, of->second);
-      of->second += contactForces(model, state.contactForce, state.frictionForce, quantity.body);
+      of->second = body.internalForce(state.bodies[quantity.body].stress) - body.load(state.time) +
+                   contactForces(model, state.contactForce, state.frictionForce, quantity.body);
     }
     return motionOf(quantity, model).dot(of->second);
   };
-  const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
+  const auto displacement = [&](const Quantity& quantity) {
     const int component = axisOf(quantity);
     const int dimension = model.bodies[quantity.body].dimension();
-    if (quantity.whole) {
-      const bool turns = quantity.component == Quantity::Component::rotation;
-      return model.bodies[quantity.body].motionOf(
-          state.bodies[quantity.body].displacement)[turns ? 2 : component];
-    }
+    if (quantity.whole)  // the motion of a rigid body: x, y and the angle
+      return model.bodies[quantity.body].motionOf(state.bodies[quantity.body].displacement)[component];
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
       value += weight * state.bodies[quantity.body].displacement[dimension * node + component];
@@ -145,13 +148,13 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     const BodyState& body = state.bodies[quantity.body];
     switch (quantity.kind) {
       case Kind::displacement:
-        return model.sum(displacement(quantity));
+        return displacement(quantity);
       case Kind::contactForce:
         return motionOf(quantity, model)
             .dot(contactForces(model, state.contactForce, state.frictionForce, quantity.body,
                                quantity.whole ? std::nullopt : std::optional(quantity.label)));
       case Kind::storedEnergy:
-        return model.sum(storedEnergy(model.bodies[quantity.body], body));
+        return storedEnergy(model.bodies[quantity.body], body);
       case Kind::dissipatedEnergy:
         return body.work.dissipated;
       case Kind::work:
@@ -163,9 +166,10 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
       case Kind::largestPressure:
         return largestPressure(model, state, quantity).value;
       case Kind::contactLength:
+      case Kind::contactArea:
         return contactLength(model, state, quantity);
       case Kind::largestMises:
-        return model.largest(largestMises(model, state, quantity).value);
+        return largestMises(model, state, quantity).value;
       case Kind::frictionWork:
         return frictionWork(model, state, quantity);
       case Kind::meanPressure:
@@ -178,19 +182,6 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   values.reserve(quantities.size());
   for (const Quantity& quantity : quantities) values.push_back(valueOf(quantity));
   return values;
-}
-
-Quantity ofParts(const Quantity& quantity, const Model& model) {
-  Quantity own = quantity;
-  own.mean.clear();
-  const BodyPart& part = model.parts[quantity.body];
-  for (const auto& [node, weight] : quantity.mean) {
-    const auto at = std::lower_bound(part.cut.nodes.begin(), part.cut.nodes.end(), node);
-    const auto number = static_cast<int>(at - part.cut.nodes.begin());
-    if (at != part.cut.nodes.end() && *at == node && part.owned[number] != 0)
-      own.mean.emplace_back(number, weight);
-  }
-  return own;
 }
 
 std::optional<PlaceOfLargest> placeOfLargest(const Quantity& quantity, const Model& model,

@@ -31,18 +31,20 @@ struct Quantity {
     thermalWork,       ///< of its thermal strain: minus the integral of s : its rate
     largestPressure,   ///< of the contact pressure, 0 where there is none
     contactLength,     ///< of the part of Gamma_C where nodes press
+    contactArea,       ///< the same in space
     largestMises,
     frictionWork,  ///< dissipated along the label since the run began
     meanPressure   ///< of the contact pressure over a part of a side
   };
-  enum class Component { x, y, moment, rotation, z };
+  /// Moments about axes; the plane has momentZ, counterclockwise. The rotation is of rigid bodies.
+  enum class Component { x, y, z, momentX, momentY, momentZ, rotation };
 
   std::string name;
   Kind kind = Kind::reaction;
   int body = 0;
-  int label = 0;                       ///< of the supports, or of a side of contact
-  Component component = Component::x;  ///< moment of forces, rotation of rigid bodies, counterclockwise
-  Point about{0, 0};                   ///< of the moment [m]
+  int label = 0;  ///< of the supports, or of a side of contact
+  Component component = Component::x;
+  SpacePoint about{0, 0, 0};  ///< of the moment; z = 0 in the plane [m]
   std::vector<std::pair<int, double>> mean =
       {};                           ///< of a displacement: nodes and their weights, which sum to one
   std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
@@ -51,7 +53,8 @@ struct Quantity {
   std::vector<Vector> shares = {};              ///< of contact forces in it (time/mean_pressure.h)
   bool whole = false;                           ///< of all of a rigid body, in place of a label
 
-  /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
+  /// N/m, N (a moment per metre of depth), m, J/m or Pa, in space N, N m, m, m^2, J or Pa, or what they are
+  /// in other units.
   [[nodiscard]] std::string unit(const Units& units = {}) const;
 };
 
@@ -59,6 +62,8 @@ struct Quantity {
 bool ofLabel(Quantity::Kind kind);
 /// Whether a quantity has a component.
 bool hasComponent(Quantity::Kind kind);
+/// Whether it is one of forces about an axis.
+bool isMoment(Quantity::Component component);
 /// Whether the work done on bodies must be counted for it.
 bool needsWork(const Quantity& quantity);
 /// The first condition that holds a label of a body or, where one is given, a point; -1 for none.
@@ -67,9 +72,6 @@ int firstSupport(const Body& body, int label, const std::optional<Point>& point,
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);
-
-/// The same for a rank that has parts of the bodies. \param quantity  with nodes of the whole body
-Quantity ofParts(const Quantity& quantity, const Model& model);
 
 /// Where a largest value is, as meshed [m]; none for other quantities, and where there is no contact.
 /// z = 0 in the plane.

@@ -1,11 +1,14 @@
 #include "time/quantity_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
-#include "material/stress.h"
-#include "time/corner_order.h"
+#include "fem/data_misfit.h"
+#include "mesh/boundary_line.h"
+#include "time/curve_error.h"
+#include "time/largest_error.h"
 #include "time/march.h"
 #include "time/nodal_forces.h"
 #include "time/quantity_motion.h"
@@ -15,6 +18,14 @@ namespace {
 
 using Kind = Quantity::Kind;
 
+/// Estimates are as often below the error as above it. Twice of them holds it in 95 % of all cases, as the
+/// factor of safety of Roache's index of grid convergence does.
+constexpr double factorOfSafety = 2;
+/// The part of a product of errors of an element by which it may be off: what cancels is not known to less,
+/// unless equilibrium or symmetry decides it.
+constexpr double uncertainPart = 0.2;
+constexpr double cancelled = 1e-4;
+
 /// The conditions of a linear quantity on z: motions that it has, on top of those of the response (dofs);
 /// forces.
 struct Goal {
@@ -22,6 +33,25 @@ struct Goal {
   bool moves = false;          ///< whether there are motions
   bool betweenBodies = false;  ///< whether contact does not follow them
 };
+
+/// Middles of sides whose ends have rows go with these where row functions are linear.
+void moveMiddles(const Body& body, int label, Vector& motion) {
+  const int dimension = body.dimension();
+  const auto add = [&](int middle, int a, int b) {
+    const auto at = [&](int node) { return motion.segment(Eigen::Index{dimension} * node, dimension); };
+    at(middle) = (at(a) + at(b)) / 2;
+  };
+  if (const SpaceElements* space = body.space()) {
+    const std::vector<std::array<int, 6>>& faces = space->nodes().faces;
+    for (size_t i = 0; i < faces.size(); ++i)
+      for (int k = 0; k < 3 && space->mesh().boundaryLabels[i] == label; ++k)
+        add(faces[i][3 + k], faces[i][k], faces[i][(k + 1) % 3]);
+  } else {
+    const BoundaryLine line = boundaryLine(body.mesh(), body.elementNodes(), label);
+    for (size_t i = 0; i < line.middleNodes.size(); ++i)
+      add(line.middleNodes[i], line.nodes[i], line.nodes[i + 1]);
+  }
+}
 
 /// The linear problem in which contact stays as it is.
 class Adjoint {
@@ -47,7 +77,7 @@ class Adjoint {
 
   /// z and E eps(z), with displacements whose gap contact leaves open.
   [[nodiscard]] std::vector<Response> operator()(const Goal& goal) const {
-    Disturbance to;
+    LinearLoad to;
     to.adjoint = true;
     to.force = goal.force;
     for (size_t b = 0; b < model_.bodies.size(); ++b) to.strain.push_back(-strainOf(b, goal.motion[b]));
@@ -64,6 +94,7 @@ class Adjoint {
       z[b].stress = elasticStress(b, strainOf(b, all));
       if (!goal.betweenBodies) z[b].displacement = all;
     }
+    closeSlipping(z);
     return z;
   }
 
@@ -79,6 +110,24 @@ class Adjoint {
   }
 
  private:
+  /// The force of a node that slips does its work on its gap and mu times its slip, which are 0 together: the
+  /// gap that is measured is that between the nodes.
+  void closeSlipping(std::vector<Response>& z) const {
+    for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+      const ContactInterface& interface = model_.interfaces[k];
+      if (!interface.hasFriction()) continue;
+      const auto& [nonmortar, mortar, coupling] = interface.pair();
+      const Body& body = model_.bodies[nonmortar.body];
+      Vector& moved = z[nonmortar.body].displacement;
+      const Vector slip = interface.slip(moved, z[mortar.body].displacement);
+      Vector closing = Vector::Zero(moved.size());
+      for (int row = 0; row < interface.rows(); ++row)
+        closing.segment<2>(Eigen::Index{2} * interface.nonmortarNodes()[row]) +=
+            state_.slipping[k][row] * interface.friction().coefficient * slip[row] * interface.normals()[row];
+      if (body.degree() == 2 && rowDegree(coupling, 2) == 1) moveMiddles(body, nonmortar.label, closing);
+      moved += closing;
+    }
+  }
   [[nodiscard]] Matrix strainOf(size_t b, const Vector& u) const {
     const Body& body = model_.bodies[b];
     Matrix strain = Matrix::Zero(body.material().components(), body.points());
@@ -105,15 +154,20 @@ class Adjoint {
   std::string obstacle_;
 };
 
-/// Of the forces of contact on a part of a line: a motion of its nonmortar nodes along the normals.
+/// Of the forces of contact on a part of a side: a motion of its nonmortar nodes along the normals.
 Vector meanPressureMotion(const Quantity& quantity, const Model& model, int body) {
-  Vector motion = Vector::Zero(model.bodies[body].dofs());
+  const Body& own = model.bodies[body];
+  const int dimension = own.dimension();
+  Vector motion = Vector::Zero(own.dofs());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (interface.pair().nonmortar.body != body) continue;
+    const ContactSide& side = interface.pair().nonmortar;
+    if (side.body != body || quantity.shares[k].isZero(0)) continue;
     for (int row = 0; row < interface.rows(); ++row)
-      motion.segment<2>(2 * interface.nonmortarNodes()[row]) +=
-          quantity.shares[k][row] * interface.normals()[row];
+      motion.segment(Eigen::Index{dimension} * interface.nonmortarNodes()[row], dimension) +=
+          quantity.shares[k][row] * normalAt(interface, row).head(dimension);
+    if (own.degree() == 2 && rowDegree(interface.pair().coupling, 2) == 1)
+      moveMiddles(own, side.label, motion);
   }
   return motion;
 }
@@ -143,8 +197,7 @@ Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint
         force[body.dimension() * node + axisOf(quantity)] += weight;
       if (quantity.whole)
         for (Eigen::Index dof = 0; dof < force.size(); ++dof)
-          force[dof] = body.motionOf(Vector::Unit(
-              force.size(), dof))[quantity.component == Quantity::Component::rotation ? 2 : axisOf(quantity)];
+          force[dof] = body.motionOf(Vector::Unit(force.size(), dof))[axisOf(quantity)];
       return goal;
     default:  // the energy
       force = adjoint.forceOfEnergy(quantity.body);
@@ -152,133 +205,153 @@ Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint
   }
 }
 
-/// The triangles around a node of a body.
-std::vector<size_t> trianglesAt(const Body& body, int node) {
-  const ElementNodes& nodes = body.elementNodes();
-  std::vector<size_t> triangles;
-  for (size_t t = 0; t < body.mesh().triangles.size(); ++t)
-    if (std::find(nodes.of(t), nodes.of(t) + nodes.perTriangle(), node) != nodes.of(t) + nodes.perTriangle())
-      triangles.push_back(t);
-  return triangles;
-}
-
-/// How far the recovered stress at a node is from the pressure there.
-double errorOfPressure(const PlaceOfLargest& largest, const Model& model, CurrentSpaceError& error) {
-  const ContactInterface& interface = model.interfaces[largest.interface];
-  const auto b = static_cast<size_t>(interface.pair().nonmortar.body);
-  const Body& body = model.bodies[b];
-  const int node = interface.nonmortarNodes()[largest.row];
-  const Point& n = interface.normals()[largest.row];
-  const size_t triangle = trianglesAt(body, node).front();
-  const int* nodes = body.elementNodes().of(triangle);
-  const Eigen::Index place = std::find(nodes, nodes + body.elementNodes().perTriangle(), node) - nodes;
-  const Eigen::Vector3d s = toCartesian(error.recoveredIn(b, triangle).col(place).head<3>());
-  const double across = n.x() * n.x() * s[0] + n.y() * n.y() * s[1] + 2 * n.x() * n.y() * s[2];
-  return std::abs(largest.value + across);
-}
-
-/// How far the largest recovered von Mises stress at the nodes of the triangle is from it.
-double errorOfMises(const PlaceOfLargest& largest, const Quantity& quantity, const Model& model,
-                    CurrentSpaceError& error) {
-  const Body& body = model.bodies[quantity.body];
-  const auto b = static_cast<size_t>(quantity.body);
-  const Matrix recovered = error.recoveredIn(b, static_cast<size_t>(largest.row / body.pointsOfTriangle()));
-  double most = 0;
-  for (const auto& column : recovered.colwise())
-    most = std::max(most, vonMises(column.head(body.material().tensorComponents())));
-  return std::abs(most - largest.value);
-}
-
-/// The order of unbounded stresses at the place of a largest value, as measured, or else as known from the
-/// corner there.
-QuantityError errorOfLargest(const Quantity& quantity, const Model& model, const State& state,
-                             CurrentSpaceError& error) {
-  QuantityError of;
-  const std::optional<PlaceOfLargest> largest = placeOfLargest(quantity, model, state);
-  if (model.bodies.front().dimension() == 3) {
-    of.obstacle = "of largest values in space there is none";
-  } else if (largest) {
-    const Point place = largest->place.head<2>();
-    const bool pressure = quantity.kind == Kind::largestPressure;
-    const int b = pressure ? model.interfaces[largest->interface].pair().nonmortar.body : quantity.body;
-    const bool flows =
-        !pressure && model.bodies[b].material().flows(state.bodies[b].stress, static_cast<int>(largest->row));
-    of.order = unboundedOrder(model, state, place);
-    if (of.order == 0 && !pressure && !flows)
-      of.order = cornerOrder(model.bodies[b], state.bodies[b].stress, place);
-    if (of.order > 0)
-      of.obstacle = "stresses are unbounded there";
-    else if (contactEndsAt(model, state, place))
-      of.obstacle = "stresses may be unbounded there, where contact ends at a corner";
-    else if (model.bodies[b].rigid())
-      of.obstacle = "the side is rigid";
-    else
-      of.size =
-          pressure ? errorOfPressure(*largest, model, error) : errorOfMises(*largest, quantity, model, error);
-  }
-  return of;
-}
-
-/// Half of the row functions at the ends of what presses.
-double errorOfContactLength(const Quantity& quantity, const Model& model, const State& state) {
-  double error = 0;
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    if (!isSide(model.interfaces[k], quantity.body, quantity.label)) continue;
-    const Vector lengths = model.interfaces[k].lengths();
-    const Vector& p = state.contactForce[k];
-    for (Eigen::Index i = 0; i + 1 < p.size(); ++i)
-      if ((p[i] > 0) != (p[i + 1] > 0)) error += (p[i] > 0 ? lengths[i] : lengths[i + 1]) / 2;
-  }
-  return error;
-}
-
 bool isLinear(Kind kind) {
   return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement ||
          kind == Kind::meanPressure || kind == Kind::storedEnergy;
 }
 
+/// What the integral of a temperature over each triangle has beside the one at the points of the stress, over
+/// its area; nothing where the points have all of it [K].
+Vector missedHeat(const Body& body, double time) {
+  const Datum& temperature = body.conditions().temperature;
+  if (body.space() != nullptr || !body.heated() || temperature.degree <= body.degree()) return {};
+  const ElementNodes& nodes = body.elementNodes();
+  const std::vector<Point> places = body.places();
+  Vector missed(static_cast<Eigen::Index>(body.elements()));
+  const int points = body.pointsOfTriangle();
+  for (size_t t = 0; t < body.elements(); ++t) {
+    std::vector<Point> corners;
+    for (int k = 0; k < 3; ++k) corners.push_back(nodes.places[nodes.of(t)[k]]);
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+      const Point& at = places[t * points + i];
+      sum += temperature(at.x(), at.y(), time) / points;
+    }
+    missed[static_cast<Eigen::Index>(t)] = mean(onTriangle(temperature, corners, time)) - sum;
+  }
+  return missed;
+}
+
+/// What bodies as meshed miss of their data: what is behind their sides, and heat.
+struct Missed {
+  Missed(const Model& model, double time) : sides(model, time) {
+    for (const Body& body : model.bodies) heat.push_back(body.rigid() ? Vector() : missedHeat(body, time));
+  }
+  /// Of a linear quantity.
+  [[nodiscard]] double changeOf(const Model& model, const State& state, const Goal& goal,
+                                const std::vector<Response>& z) const {
+    std::vector<Vector> moved;
+    for (size_t b = 0; b < z.size(); ++b)
+      moved.emplace_back(goal.betweenBodies ? Vector(z[b].displacement + goal.motion[b]) : z[b].displacement);
+    double change = -sides.changeOf(state, z, moved);
+    for (size_t b = 0; b < heat.size(); ++b) {
+      const Body& body = model.bodies[b];
+      const Matrix& expansion = body.conditions().expansion;
+      for (int i = 0; heat[b].size() > 0 && i < body.points(); ++i)
+        change += body.weights()[i] * heat[b][i / body.pointsOfTriangle()] *
+                  expansion.col(i).dot(z[b].stress.col(i).head(expansion.rows()));
+    }
+    return change;
+  }
+
+  CurvedSides sides;
+  std::vector<Vector> heat;  ///< by bodies
+};
+
 /// Of what needs no response.
-QuantityError errorOfOther(const Quantity& quantity, const Model& model, const State& state,
-                           CurrentSpaceError& error) {
+QuantityError errorOfOther(const Quantity& quantity, const Model& model, CurrentMeshError& error) {
+  constexpr double rounded = 1 - 1e-9;
   QuantityError of;
-  if (quantity.kind == Kind::largestPressure || quantity.kind == Kind::largestMises)
-    return errorOfLargest(quantity, model, state, error);
-  if (quantity.kind != Kind::contactLength)
+  if (quantity.kind == Kind::largestPressure || quantity.kind == Kind::largestMises) {
+    of = errorOfLargest(quantity, model, error);
+    of.size *= factorOfSafety;
+  } else if (quantity.kind == Kind::contactLength || quantity.kind == Kind::contactArea) {
+    of.size = errorOfContactSize(quantity, model, error.state());
+    if (of.size > 0 && 2 * of.size > rounded * evaluate({quantity}, model, error.state()).front())
+      of.obstacle = "contact is no wider than the elements at its ends";
+  } else {
     of.obstacle = "it is summed over the steps, and errors are those of the last one";
-  else if (model.bodies.front().dimension() == 3)
-    of.obstacle = "of areas of contact there is none";
-  else
-    of.size = errorOfContactLength(quantity, model, state);
+  }
   return of;
 }
 
+/// What a mean pressure is smaller by on surfaces that are larger than meshed.
+double growthOfMean(const Quantity& quantity, const Model& model, const State& state) {
+  double growth = 0;
+  double size = 0;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    const Body& body = model.bodies[quantity.body];
+    growth += growthOfSide(body, quantity.label, std::vector<char>(static_cast<size_t>(body.nodes()), 1));
+    size += interface.lengths().sum();
+  }
+  return size > 0 ? growth / size * evaluate({quantity}, model, state).front() : 0;
+}
+
+/// The part e of the stress that is its estimated error is found with a recovered stress of which about the
+/// same part is an error again: e^2 (1 + e^2).
+double beyondRecovered(const std::vector<ErrorEstimate>& estimates) {
+  double error = 0;
+  double energy = 0;
+  for (const ErrorEstimate& estimate : estimates) {
+    error += estimate.error.sum();
+    energy += estimate.energy;
+  }
+  return energy > 0 ? 1 + std::min(error / energy, 1.0) : 1;
+}
+
 QuantityError errorOfLinear(const Quantity& quantity, const Model& model, const Adjoint& adjoint,
-                            CurrentSpaceError& error) {
+                            const Missed& missed, CurrentMeshError& error) {
   QuantityError of;
   of.obstacle = adjoint.obstacle();
   if (!of.obstacle.empty()) return of;
+  const Goal goal = goalOf(quantity, model, adjoint);
+  const std::vector<Response> z = adjoint(goal);
+  const CurrentMeshError::Estimates estimates = error.estimates();
   double sum = 0;
-  for (const Vector& part : error.products(adjoint(goalOf(quantity, model, adjoint)))) sum += part.sum();
-  // U(u) = U(u_h) + a(u, u - u_h) - |u - u_h|^2/2, and z has the recovered stress of u.
-  if (quantity.kind == Kind::storedEnergy) sum -= (*error.estimates())[quantity.body].error.sum() / 2;
-  of.size = std::abs(sum);
+  double absolute = 0;
+  for (const Vector& part : error.products(z)) {
+    sum += part.sum();
+    absolute += part.cwiseAbs().sum();
+  }
+  double beside = missed.changeOf(model, error.state(), goal, z);
+  // U(u) = U(u_h) + a(u, u - u_h) - |u - u_h|^2/2, and z has the recovered stress of u. Where both terms
+  // are as large, which of them is larger is not known.
+  if (quantity.kind == Kind::storedEnergy) {
+    const double square = (*estimates)[quantity.body].error.sum() / 2;
+    sum = std::max(std::abs(sum - square), square);
+    beside += missed.sides.energyBehind(quantity.body, error.state().bodies[quantity.body].stress);
+  }
+  if (quantity.kind == Kind::meanPressure) beside += growthOfMean(quantity, model, error.state());
+  const double uncertain = std::abs(sum) > cancelled * absolute ? uncertainPart * absolute : 0;
+  const double ofStress = (std::abs(sum) + uncertain) * beyondRecovered(*estimates);
+  of.size = factorOfSafety * (ofStress + std::abs(beside));
   return of;
 }
 
 }  // namespace
 
+void withdraw(QuantityError& error, double value, const std::string& reason) {
+  constexpr double decided = 1e-9;
+  if (error.obstacle.empty() && error.size > decided * std::abs(value)) error = {0, reason, error.order};
+}
+
 std::vector<QuantityError> quantityErrors(const std::vector<Quantity>& quantities, const Model& model,
-                                          StepTaker* taker, double begin, CurrentSpaceError& error) {
-  const State& state = error.state();
+                                          StepTaker* taker, double begin, CurrentMeshError& error) {
   std::vector<QuantityError> errors;
   std::optional<Adjoint> adjoint;
+  std::optional<Missed> missed;
   for (const Quantity& quantity : quantities) {
     QuantityError& of = errors.emplace_back();
     if (!isLinear(quantity.kind)) {
-      of = errorOfOther(quantity, model, state, error);
+      of = errorOfOther(quantity, model, error);
     } else if (taker != nullptr) {
-      if (!adjoint) adjoint.emplace(model, *taker, begin);
-      of = errorOfLinear(quantity, model, *adjoint, error);
+      if (!adjoint) {
+        adjoint.emplace(model, *taker, begin);
+        missed.emplace(model, error.state().time);
+      }
+      of = errorOfLinear(quantity, model, *adjoint, *missed, error);
     }
     if (!std::isfinite(of.size)) of = {0, "it is not finite", of.order};
   }

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -11,9 +12,8 @@ class UnitMotion {
  public:
   explicit UnitMotion(const Quantity& quantity) : quantity_(quantity) {}
   [[nodiscard]] SpacePoint at(const SpacePoint& x) const {
-    const Point& about = quantity_.about;
-    if (quantity_.component == Quantity::Component::moment) return {about.y() - x.y(), x.x() - about.x(), 0};
-    return SpacePoint::Unit(axisOf(quantity_));
+    const SpacePoint axis = SpacePoint::Unit(axisOf(quantity_));
+    return isMoment(quantity_.component) ? SpacePoint(axis.cross(x - quantity_.about)) : axis;
   }
 
  private:
@@ -60,10 +60,9 @@ void addSpaceSupports(const Body& body, const UnitMotion& unit, const Own& own, 
 Vector rigidMotion(const Body& body, const Quantity& quantity, const UnitMotion& unit) {
   const RigidMotion& rigid = *body.conditions().rigid;
   const SpacePoint there = unit.at({rigid.at.x(), rigid.at.y(), 0});
-  const bool turns = quantity.component == Quantity::Component::moment;
   const double x = rigid.held[0] ? there.x() : 0;
   const double y = rigid.held[1] ? there.y() : 0;
-  const double angle = rigid.held[2] && turns ? 1 : 0;
+  const double angle = rigid.held[2] && isMoment(quantity.component) ? 1 : 0;
   Vector motion(body.dofs());
   for (int node = 0; node < body.nodes(); ++node) {
     const Point arm = body.placeOfNode(node).head<2>() - rigid.at;
@@ -75,9 +74,15 @@ Vector rigidMotion(const Body& body, const Quantity& quantity, const UnitMotion&
 }  // namespace
 
 int axisOf(const Quantity& quantity) {
-  return quantity.component == Quantity::Component::x   ? 0
-         : quantity.component == Quantity::Component::z ? 2
-                                                        : 1;
+  using enum Quantity::Component;
+  const Quantity::Component along = quantity.component;
+  return along == x || along == momentX ? 0 : along == y || along == momentY ? 1 : 2;
+}
+
+SpacePoint normalAt(const ContactInterface& interface, int row) {
+  if (interface.dimension() == 3) return interface.spaceNormals()[row];
+  const Point& n = interface.normals()[row];
+  return {n.x(), n.y(), 0};
 }
 
 int firstSupport(const Body& body, int label, const std::optional<Point>& point,

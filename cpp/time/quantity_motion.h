@@ -6,12 +6,15 @@
 
 namespace mortier {
 
-/// x, y or z as a number.
+/// x, y or z, of a component or of the axis that it turns about, as a number.
 int axisOf(const Quantity& quantity);
 
 /// The motion (dofs) on which the work of forces at the nodes is a reaction, for those of supports, or a
 /// contact force, for those that contact takes from the body.
 Vector motionOf(const Quantity& quantity, const Model& model);
+
+/// The direction of contact at a row; z = 0 in the plane.
+SpacePoint normalAt(const ContactInterface& interface, int row);
 
 /// A largest value, and where it is.
 struct PlaceOfLargest {

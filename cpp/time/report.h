@@ -100,7 +100,7 @@ struct RunReport {
   Certificate worst;          ///< the largest residuals of any step
   Peaks peaks;
   std::vector<QuantityRange> quantities;  ///< of the plan
-  std::map<std::string, int> rungs;       ///< how many steps took which (StepReport::rung)
+  std::map<std::string, int> rungs;       ///< how many steps took which (StepReport::method)
   int ambiguousSteps = 0;                 ///< StepSolutions::ambiguous
   std::vector<SeveralSolutions> several;  ///< where they are looked for
   BodyOverlap overlap;                    ///< the deepest of any step; of the step that failed by one

@@ -39,9 +39,9 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
     step.judgement.good = true;  // as it was when the pair was begun
     return step;
   }
-  if (rough_ && !isShortest(t0, end - t0)) {  // no time lies within a jump
+  if (hasFriction_ && !isShortest(t0, end - t0)) {  // no time lies within a jump
     step.outcome = taker.attempt(end, effort);
-    if (!step.outcome.converged() || step.outcome.rung == Rung::rest) return step;
+    if (!step.outcome.converged() || step.outcome.method == SolutionMethod::rest) return step;
     addTo(step.missed, -1, taker.slip());
     step.t1 = t0 + (end - t0) / 2;
     step.beginsPair = true;

@@ -20,17 +20,16 @@ bool StepEnds::isBreak(double t) const {
   return std::binary_search(breaks_.begin(), breaks_.end(), t);
 }
 
-/// The first peak of the data in the step, after its begin, where contact may close and open again; t1 where
-/// there is none, or where waves that move peak all the time somewhere.
+/// The first peak of the data in the step, where contact may close and open again, and bodies yield and
+/// unload before the first stage; t1 where there is none, or where waves that move peak all the time
+/// somewhere.
 /// \param least  height of the peaks that count
 double StepEnds::firstPeak(double t0, double t1, double least) const {
   constexpr double apart = 0.1;  // of the step
   constexpr int few = 2;
   std::vector<double> times;
   for (const Course& course : data_)
-    if (const CoursePeak peak = peakBetween(course, t0, t1);
-        peak.height > least && peak.time - t0 > apart * (t1 - t0))
-      times.push_back(peak.time);
+    if (const CoursePeak peak = peakBetween(course, t0, t1); peak.height > least) times.push_back(peak.time);
   if (times.empty()) return t1;
   std::sort(times.begin(), times.end());
   int distinct = 1;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/dense_templates.h"
+#include "base/quadrature_rules.h"
 #include "solver/state.h"
 #include "time/error_norms.h"
 #include "time/step_taker.h"
@@ -10,9 +11,6 @@
 namespace mortier {
 namespace {
 
-/// Gauss's rule with three points on [0, 1].
-constexpr double gaussPoints[] = {0.1127016653792583, 0.5, 0.8872983346207417};
-constexpr double gaussWeights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 constexpr int parts = 2;  // of the time between two stages
 
 /// Lagrange's polynomials of the nodes at x.
@@ -73,11 +71,11 @@ std::vector<Matrix> StepTaker::defects(size_t body, const std::vector<Matrix>& r
     if (!material.linear()) {
       const double h = (stage.time - from) / parts;
       for (int part = 0; part < parts; ++part)
-        for (int g = 0; g < 3; ++g) {
-          const double fraction = from + h * (part + gaussPoints[g]);
+        for (const auto& [at, weight] : gaussThree) {
+          const double fraction = from + h * (part + at);
           const Matrix strain = strainWithin(body, fraction);
           material.viscoplasticRate(stressWithin(body, fraction), rate, &strain);
-          integral += k * h * gaussWeights[g] * rate;
+          integral += k * h * weight * rate;
         }
     }
     Matrix r = integral - k * stage.diagonal * rates[i];
@@ -191,18 +189,18 @@ StepError StepTaker::carried(const std::vector<Matrix>& strain) {
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
                                           const std::vector<Vector>& slip) {
-  std::vector<Matrix> felt;
+  std::vector<Matrix> strains;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
-    felt.push_back(strain.empty() ? Matrix::Zero(body.material().components(), body.points())
-                                  : feltStrain(b, strain[b]));
+    strains.push_back(strain.empty() ? Matrix::Zero(body.material().components(), body.points())
+                                     : strainAtTangent(b, strain[b]));
   }
-  return system_.respond(felt, solutions_.back(), slip);
+  return system_.respond(strains, solutions_.back(), slip);
 }
 
 /// A law of the strain flows less where more has flowed. Its tangent has strains that are prescribed:
 /// an error x of the flow is to it the strain y with (1 - k a_ss dG/deps) y = x.
-Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
+Matrix StepTaker::strainAtTangent(size_t body, const Matrix& strain) const {
   constexpr double little = 1e-6;
   const Material& material = model_.bodies[body].material();
   if (!material.needsTotalStrain() || strain.isZero(0)) return strain;
@@ -219,14 +217,14 @@ Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
     material.viscoplasticRate(stress, slopes[c], &changed);
     slopes[c] = weight / h * (slopes[c] - before);
   }
-  Matrix felt = strain;
+  Matrix strains = strain;
   Matrix system(strain.rows(), strain.rows());
   for (Eigen::Index i = 0; i < strain.cols(); ++i) {
     for (Eigen::Index c = 0; c < strain.rows(); ++c) system.col(c) = -slopes[c].col(i);
     system.diagonal().array() += 1;
-    felt.col(i) = system.partialPivLu().solve(strain.col(i));
+    strains.col(i) = system.partialPivLu().solve(strain.col(i));
   }
-  return felt;
+  return strains;
 }
 
 std::vector<Response> StepTaker::change(size_t stage) const {
@@ -248,8 +246,6 @@ double StepTaker::share(double fraction) const {
     for (int i = 0; i < model_.bodies[b].points(); ++i)
       flowing += model_.bodies[b].material().flows(stress, i, &strain) ? 1 : 0;
   }
-  points = model_.sum(points);
-  flowing = model_.sum(flowing);
   return points > 0 ? flowing / points : 0;
 }
 
@@ -262,9 +258,9 @@ double StepTaker::flowingAtEnd() const {
 }
 
 /// The stress at the end of the attempt had it gone on as it began; nothing where that is not known.
-std::vector<Matrix> StepTaker::onwards() const {
+std::vector<Matrix> StepTaker::extrapolatedStress() const {
   std::vector<Matrix> stress;
-  const bool elastic = solutions_.size() > 1 && !model_.any(!noneHere(rates_[0]));
+  const bool elastic = solutions_.size() > 1 && noneHere(rates_[0]);
   if (!elastic && memory_.increments.empty()) return stress;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Matrix& start = state_.bodies[b].stress;
@@ -278,7 +274,7 @@ std::vector<Matrix> StepTaker::onwards() const {
 
 std::vector<Response> StepTaker::turn() const {
   constexpr double part = 0.25;  // of the square: the flow keeps its last direction, which turns as it grows
-  const std::vector<Matrix> expected = onwards();
+  const std::vector<Matrix> expected = extrapolatedStress();
   std::vector<Response> turn;
   for (size_t b = 0; b < expected.size(); ++b) {
     const Material& material = model_.bodies[b].material();
@@ -300,7 +296,7 @@ double StepTaker::onset() const {
   constexpr int halvings = 12;
   // The polynomial through the stages has the curvature of the load,
   // the stress before the first flow how it would go on.
-  const std::vector<Matrix> expected = onwards();
+  const std::vector<Matrix> expected = extrapolatedStress();
   const auto anyFlows = [&](size_t b, const Matrix& stress, const Matrix& strain) {
     for (int i = 0; i < model_.bodies[b].points(); ++i)
       if (model_.bodies[b].material().flows(stress, i, &strain)) return true;
@@ -318,10 +314,10 @@ double StepTaker::onset() const {
   };
   double below = 0;
   double above = 1;
-  if (!model_.any(flowsAt(above))) return 1;
+  if (!flowsAt(above)) return 1;
   for (int i = 0; i < halvings; ++i) {
     const double middle = (below + above) / 2;
-    (model_.any(flowsAt(middle)) ? above : below) = middle;
+    (flowsAt(middle) ? above : below) = middle;
   }
   return below;
 }

@@ -51,7 +51,6 @@ bool StepTaker::closes() const {
   for (const BodyState& body : state_.bodies)
     if (body.displacement.size() > 0)
       largest = std::max(largest, body.displacement.lpNorm<Eigen::Infinity>());
-  largest = model_.largest(largest);
   bool any = false;
   for (size_t k = 0; k < state_.contactForce.size(); ++k) {
     const auto open = state_.contactForce[k].array() <= 0 && state_.gap[k].array() < -rounding * largest;

@@ -19,7 +19,7 @@ std::vector<double> StepTaker::dissipatedByFriction() const {
   }
   std::vector<double> result;
   // The sum keeps the energy, single nodes may be negative; so may all where contact opens in a long step.
-  for (const Vector& work : frictionWork(state_, solutions_.back(), slip0, slip))
+  for (const Vector& work : frictionWork(frictionAtSlip_, solutions_.back(), slip0, slip))
     result.push_back(std::max(work.sum(), 0.0));
   return result;
 }
@@ -33,7 +33,7 @@ SlipAndWork StepTaker::slip() const {
 
 double StepTaker::workAlong(const std::vector<Vector>& slip) const {
   double work = 0;
-  for (const Vector& each : frictionWork(state_, solutions_.back(), slip, slip)) work += each.sum();
+  for (const Vector& each : frictionWork(frictionAtSlip_, solutions_.back(), slip, slip)) work += each.sum();
   return work;
 }
 

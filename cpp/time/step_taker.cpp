@@ -52,6 +52,7 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
   t1_ = t1;
   tableau_ = tableau(scheme);
   guarded_ = false;
+  if (!showsState_ && anyFriction(model_)) showState();  // T of the state alone, as after a restart
   showsState_ = false;
   return hold(solveStages(t1, effort));
 }
@@ -60,9 +61,9 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
 // back. When the flow turns round between the stages in more than a small share of the bodies, the step is
 // redone with backward Euler, which cannot. Two half steps of it are never worse than the one of a run with
 // backward Euler: an overstress is divided by (1 + z/2)^2 instead of 1 + z.
-bool StepTaker::turned() const {
+bool StepTaker::flowReversed() const {
   constexpr double most = 0.05;
-  return tableau_.errorOrder == 3 && turnedShare() > most;
+  return tableau_.errorOrder == 3 && reversedShare() > most;
 }
 
 StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
@@ -101,7 +102,7 @@ std::string beyond(const Certificate& found, double most) {
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   const double most = std::max(residualTolerance, system_.options().tolerance);
   if (const std::string residual = outcome.converged() ? beyond(outcome.certificate, most) : "";
-      model_.any(!residual.empty()))
+      !residual.empty())
     outcome.fail(Reason::unconverged, residual);
   const bool asked = outcome.converged() && t1_ > state_.time;
   if (const std::string motion = asked ? system_.looseMotion(state_, solutions_.back()) : ""; !motion.empty())
@@ -110,7 +111,10 @@ StepOutcome StepTaker::hold(StepOutcome outcome) {
     overlap_ = overlapOf(solutions_.back(), t1_);
     if (overlapEnds_ && overlap_.refused()) outcome.fail(Reason::overlap, overlap_.words);
   }
-  if (!outcome.converged()) memory_.increments.clear();
+  if (outcome.converged())
+    frictionAtSlip_ = system_.frictionAtSlip(state_, gap0_, solutions_.back());
+  else
+    memory_.increments.clear();
   memory_.solver = system_.memory();
   return outcome;
 }
@@ -140,7 +144,8 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);
-    if (i > 0 && (outcome.rung == Rung::rest || total.rung > Rung::newton)) outcome.rung = total.rung;
+    if (i > 0 && (outcome.method == SolutionMethod::rest || total.method > SolutionMethod::newton))
+      outcome.method = total.method;
     total = std::move(outcome);
     if (!total.converged()) {
       unsolved_.emplace(data, std::move(iterate));
@@ -155,33 +160,24 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
 std::optional<StuckPlace> StepTaker::stuck() {
   if (!unsolved_) return std::nullopt;
   auto& [data, iterate] = *unsolved_;
-  return system_.furthest(system_.step(state_, data), iterate, data.weight);
+  return system_.worstPoint(system_.step(state_, data), iterate, data.weight);
 }
 
 std::string StepTaker::stressAt(const StuckPlace& place) const {
   const Body& body = model_.bodies[place.body];
   if (!unsolved_) return "";
-  int triangle = place.triangle;
-  if (model_.inParts()) {
-    const std::vector<int>& own = model_.parts[place.body].cut.triangles;
-    const auto at = std::lower_bound(own.begin(), own.end(), triangle);
-    triangle = at != own.end() && *at == triangle ? static_cast<int>(at - own.begin()) : -1;
-  }
   const Matrix& stress = unsolved_->second.bodies[place.body].stress;
-  std::array<double, 6> s{};  // of the rank that has the triangle
-  if (triangle >= 0) {
-    const int first = triangle * body.pointsOfTriangle();
-    int point = first;
-    while (point + 1 < first + body.pointsOfTriangle() && body.placeOfPoint(point) != place.at) ++point;
-    if (body.dimension() == 3) {
-      const SpaceStress all = toSpaceCartesian(stress.col(point).head<6>());
-      s = {all[0], all[1], all[3], all[2], all[4], all[5]};
-    } else {
-      const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
-      s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
-    }
+  const int first = place.triangle * body.pointsOfTriangle();
+  int point = first;
+  while (point + 1 < first + body.pointsOfTriangle() && body.placeOfPoint(point) != place.at) ++point;
+  std::array<double, 6> s{};
+  if (body.dimension() == 3) {
+    const SpaceStress all = toSpaceCartesian(stress.col(point).head<6>());
+    s = {all[0], all[1], all[3], all[2], all[4], all[5]};
+  } else {
+    const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
+    s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
   }
-  model_.sum(s.data(), s.size());
   std::string text = formatted(", at the stress s11 = %g, s22 = %g, s12 = %g", s[0], s[1], s[2]);
   if (stress.rows() > 3) text += formatted(", s33 = %g", s[3]);
   if (body.dimension() == 3) text += formatted(", s13 = %g, s23 = %g", s[4], s[5]);
@@ -256,7 +252,7 @@ std::vector<Matrix> StepTaker::ratesOf(const Iterate& stage, double weight) cons
 }
 
 /// Share of |G_1| in triangles where G_1 : G_2 <= 0.
-double StepTaker::turnedShare() const {
+double StepTaker::reversedShare() const {
   double all = 0;
   double against = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b)
@@ -265,8 +261,6 @@ double StepTaker::turnedShare() const {
       all += flow;
       if (rates_[0][b].col(i).dot(rates_[1][b].col(i)) <= 0) against += flow;
     }
-  all = model_.sum(all);
-  against = model_.sum(against);
   return all > 0 ? against / all : 0;
 }
 
@@ -283,7 +277,6 @@ void StepTaker::commit() {
     state_.frictionWorkOf[k] += work[k];
     state_.frictionWork += work[k];
   }
-  keepRows();
   state_.gapWork += gapWork(state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;

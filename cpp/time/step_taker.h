@@ -37,7 +37,7 @@ class StepTaker {
   /// is solved it is the state.
   StepOutcome jump();
   /// Whether the last attempt, which converged, needs the guard.
-  [[nodiscard]] bool turned() const;
+  [[nodiscard]] bool flowReversed() const;
   /// Repeats it as two half steps of backward Euler. \returns the outcome, the work of `before` included
   StepOutcome guard(const StepOutcome& before, Effort effort = Effort::usual);
   /// Whether that was done.
@@ -96,7 +96,7 @@ class StepTaker {
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// Where the last attempt is furthest off the material law, if it was not solved.
   [[nodiscard]] std::optional<StuckPlace> stuck();
-  /// The stress of its iterate there, in words; empty where ranks share the bodies.
+  /// The stress of its iterate there, in words.
   [[nodiscard]] std::string stressAt(const StuckPlace& place) const;
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
@@ -138,7 +138,7 @@ class StepTaker {
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
   StepError atEnd(std::vector<Matrix> strain);
-  [[nodiscard]] Matrix feltStrain(size_t body, const Matrix& strain) const;
+  [[nodiscard]] Matrix strainAtTangent(size_t body, const Matrix& strain) const;
   void onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const;
   void addLag(const Fields& rates, std::vector<Response>& response);
   [[nodiscard]] Fields stageRates() const;
@@ -146,10 +146,10 @@ class StepTaker {
   std::vector<Response> lag(std::vector<Matrix> strain);
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] Matrix strainWithin(size_t body, double fraction) const;
-  [[nodiscard]] double turnedShare() const;
+  [[nodiscard]] double reversedShare() const;
   [[nodiscard]] double dissipated(size_t body) const;
   void countWork();
-  [[nodiscard]] std::vector<Matrix> onwards() const;
+  [[nodiscard]] std::vector<Matrix> extrapolatedStress() const;
   [[nodiscard]] double share(double fraction) const;
 
   const Model& model_;
@@ -165,6 +165,7 @@ class StepTaker {
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;                        ///< by stage
+  std::vector<Vector> frictionAtSlip_;                    ///< of the last attempt that converged
   std::vector<Vector> gap0_;                              ///< of the state, by the rows of the last stage
   std::optional<std::pair<StepData, Iterate>> unsolved_;  ///< the stage that was not
   std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body

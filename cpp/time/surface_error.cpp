@@ -3,7 +3,7 @@
 // they are refined.
 #include <algorithm>
 
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier {
 namespace {
@@ -25,7 +25,7 @@ std::vector<std::array<int, 3>> trianglesOf(const Eigen::SparseMatrix<double>& t
 
 }  // namespace
 
-void SpaceErrorEstimator::addSurface(int body, int label) {
+void MeshErrorEstimator::addSurface(int body, int label) {
   const auto [place, isNew] = surfaces_.try_emplace({body, label});
   if (!isNew) return;
   const TetrahedronMesh& mesh = model_.bodies[body].space()->mesh();
@@ -44,8 +44,8 @@ void SpaceErrorEstimator::addSurface(int body, int label) {
   }
 }
 
-void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
-                                         std::vector<ErrorEstimate>& estimates) const {
+void MeshErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
+                                        std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[interface];
   const auto& [nonmortar, mortar, coupling] = contact.pair();
   if (coupling == CouplingKind::interpolation) return;

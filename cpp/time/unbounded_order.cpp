@@ -1,48 +1,59 @@
-#include "time/corner_order.h"
+#include "time/singular_places.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace mortier {
 namespace {
 
-constexpr int discs = 4;             // of 2, 4, 8 and 16 edges
+constexpr int discs = 4;             // of 2, 4, 8 and 16 edges; balls in space
 constexpr double leastOrder = 0.15;  // jumps and smooth peaks have an order about 0
 constexpr double mostOrder = 0.6;    // corners, cracks and ends of contact have at most 1/2
 constexpr double largestSpread =
     0.2;  // the order of a peak that the mesh does not resolve grows with the radius
 
-double doubled(const TriangleMesh& mesh, size_t t) {
-  return doubleArea(mesh, static_cast<int>(t));
+/// The size of an element times the factorial of the dimension: of the box of its edges at a vertex.
+template <class Place, size_t corners>
+double boxOf(const std::vector<Place>& vertices, const std::array<int, corners>& element) {
+  Eigen::Matrix<double, corners - 1, corners - 1> edges;
+  for (size_t k = 1; k < corners; ++k) edges.col(k - 1) = vertices[element[k]] - vertices[element[0]];
+  return std::abs(edges.determinant());
 }
 
 /// A length of the edges at the vertex next to a place.
-double edgeAt(const TriangleMesh& mesh, const Point& place) {
-  const auto far = [&](const Point& at) { return (at - place).squaredNorm(); };
-  const auto nearest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
-                                        [&](const Point& a, const Point& b) { return far(a) < far(b); });
-  const auto vertex = static_cast<int>(nearest - mesh.vertices.begin());
-  double area = 0;
+template <class Place, size_t corners>
+double edgeAt(const std::vector<Place>& vertices, const std::vector<std::array<int, corners>>& elements,
+              const Place& place) {
+  const auto far = [&](const Place& at) { return (at - place).squaredNorm(); };
+  const auto nearest = std::min_element(vertices.begin(), vertices.end(),
+                                        [&](const Place& a, const Place& b) { return far(a) < far(b); });
+  const auto vertex = static_cast<int>(nearest - vertices.begin());
+  double size = 0;
   int around = 0;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (std::count(mesh.triangles[t].begin(), mesh.triangles[t].end(), vertex) > 0) {
-      area += doubled(mesh, t);
+  for (const auto& element : elements)
+    if (std::count(element.begin(), element.end(), vertex) > 0) {
+      size += boxOf(vertices, element);
       ++around;
     }
-  return std::sqrt(area / around);
+  return std::pow(size / around, 1.0 / (corners - 1));
 }
 
-double orderIn(const Body& body, const Matrix& stress, const Point& place) {
-  const TriangleMesh& mesh = body.mesh();
-  const double edge = edgeAt(mesh, place);
+template <class Place, size_t corners>
+double orderIn(const Body& body, const Matrix& stress, const std::vector<Place>& vertices,
+               const std::vector<std::array<int, corners>>& elements, const Place& place) {
+  const double edge = edgeAt(vertices, elements, place);
   if (!(edge * (1 << discs) < body.extent() / 2)) return 0;
+  constexpr double dimension = corners - 1;
   std::array<double, discs> energy{};
-  const size_t points = body.points() / mesh.triangles.size();
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const double r = ((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3 - place).norm();
+  const size_t points = body.points() / elements.size();
+  for (size_t t = 0; t < elements.size(); ++t) {
+    Place centre = Place::Zero();
+    for (const int v : elements[t]) centre += vertices[v];
+    const double r = (centre / (dimension + 1) - place).norm();
     for (size_t i = t * points; i < (t + 1) * points; ++i)
       for (int k = 0; k < discs; ++k)
         if (r < edge * (2 << k))
@@ -50,7 +61,7 @@ double orderIn(const Body& body, const Matrix& stress, const Point& place) {
   }
   if (!(energy[0] > 0)) return 0;
   std::array<double, discs - 1> order{};
-  for (int k = 0; k + 1 < discs; ++k) order[k] = 1 - std::log2(energy[k + 1] / energy[k]) / 2;
+  for (int k = 0; k + 1 < discs; ++k) order[k] = (dimension - std::log2(energy[k + 1] / energy[k])) / 2;
   const auto [low, high] = std::minmax_element(order.begin(), order.end());
   const double mean = std::accumulate(order.begin(), order.end(), 0.0) / order.size();
   return *low >= leastOrder && mean <= mostOrder && *high - *low <= largestSpread ? mean : 0;
@@ -58,10 +69,17 @@ double orderIn(const Body& body, const Matrix& stress, const Point& place) {
 
 }  // namespace
 
-double unboundedOrder(const Model& model, const State& state, const Point& place) {
+double unboundedOrder(const Model& model, const State& state, const SpacePoint& place) {
   double order = 0;
-  for (size_t b = 0; b < model.bodies.size(); ++b)
-    order = std::max(order, orderIn(model.bodies[b], state.bodies[b].stress, place));
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Matrix& stress = state.bodies[b].stress;
+    if (const SpaceElements* space = body.space())
+      order = std::max(order, orderIn(body, stress, space->mesh().vertices, space->mesh().tetrahedra, place));
+    else
+      order = std::max(
+          order, orderIn(body, stress, body.mesh().vertices, body.mesh().triangles, Point(place.head<2>())));
+  }
   return order;
 }
 

@@ -70,17 +70,11 @@ def views() -> dict[str, ModuleType]:
 def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
     """The runs.Result and the results.Run that views/ would read from files."""
     runs, results = views()["runs"], views()["results"]
-    result = runs.Result.__new__(runs.Result)
-    result.folder = Path(run.folder or run.summary["scene"])
-    result.summary = run.summary
-    result.bodies = [body["name"] for body in run.summary["bodies"]]
-    result.interfaces = run.summary["interfaces"]
-    result.kept = [(each.number, each.time) for each in run.steps]
-    if step.number not in dict(result.kept):
-        result.kept.append((step.number, step.time))
-    result.history = run._solution.history
+    kept = {each.number: each.time for each in (*run.steps, step)}
+    result = runs.Result(Path(run.folder or run.summary["scene"]), run.summary, list(kept.items()),
+                         run._solution.history)
     bodies = {}
-    for name in result.bodies:
+    for name in step.points:
         cells = {"stress": step.stress[name], "von_mises": step.von_mises[name],
                  "viscoplastic_strain": step.viscoplastic_strain[name],
                  "viscoplastic": step.viscoplastic[name], "region": step.regions[name],
@@ -101,5 +95,5 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
         rough = "friction" in run.summary["verification"]
         contact = results.Contact(*of_all("vertex", "position", "gap", "force", "pressure"),
                                   np.repeat(np.arange(len(sides)), [len(side.vertex) for side in sides]),
-                                  *(of_all("friction", "shear", "slipping") if rough else ()))
+                                  *(of_all("friction", "shear", "slipping", "slip") if rough else ()))
     return result, results.Run("mortier", result.folder, bodies, contact, run.summary)

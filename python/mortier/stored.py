@@ -127,8 +127,8 @@ def read(folder: str | os.PathLike[str]) -> StoredSolution:
     try:
         summary = results.read_summary(place, failed=True)
         history = results.read_history(place)
-        nodes = nodes_of(results.read_csv(place / "contact.csv") if summary["interfaces"] else [])
-        steps = [step_at(results, place, summary, history, nodes.get(number, {}), number, time)
+        tables = results.contact_tables(place)
+        steps = [step_at(results.mortier_run(place, summary, tables, number), history, number, time)
                  for number, time in results.kept_steps(place)]
     except (results.ResultError, KeyError, TypeError, ValueError) as error:
         raise InputError(str(error) if isinstance(error, results.ResultError)
@@ -137,19 +137,9 @@ def read(folder: str | os.PathLike[str]) -> StoredSolution:
     return StoredSolution(steps, history, json.dumps(summary), str(place), code, summary.get("reason", ""))
 
 
-def nodes_of(rows: list[dict[str, str]]) -> dict[int, dict[int, list[dict[str, str]]]]:
-    """step -> interface -> rows of contact.csv."""
-    found: dict[int, dict[int, list[dict[str, str]]]] = {}
-    for row in rows:
-        found.setdefault(int(row["step"]), {}).setdefault(int(row["interface"]), []).append(row)
-    return found
-
-
-def step_at(results: Any, folder: Path, summary: dict[str, Any], history: dict[str, Any],
-            nodes: dict[int, list[dict[str, str]]], number: int, time: float) -> StoredStep:
-    bodies = {body["name"]: results.read_vtu(folder / f"{body['name']}_{number:06d}.vtu")
-              for body in results.body_list(folder, summary)}
-
+def step_at(run: Any, history: dict[str, Any], number: int, time: float) -> StoredStep:
+    """run: results.Run."""
+    bodies = run.bodies
     space = any(body.tetrahedra is not None for body in bodies.values())
 
     def cells(name: str) -> dict[str, Any]:
@@ -158,20 +148,23 @@ def step_at(results: Any, folder: Path, summary: dict[str, Any], history: dict[s
     at_points = {name: each.stress[:, None] if each.stress_at_points is None else each.stress_at_points
                  for name, each in bodies.items()}
     row = next((i for i, each in enumerate(history["step"]) if each == number), None)
-    sides = []
-    for index, interface in enumerate(summary["interfaces"]):
-        rows = nodes.get(index, [])
-        columns = {name: np.array([float(each.get(name, 0)) for each in rows],
-                                  np.int32 if name in ("vertex", "slipping") else float) for name in NODAL}
-        axes = "xyz" if space else "xy"
-        position = np.array([[float(each[x]) for x in axes] for each in rows]).reshape(-1, len(axes))
-        sides.append(StoredContact(interface["nonmortar"], interface["mortar"], position, **columns))
     return StoredStep(
         number, time, {} if row is None else {bare(name): column[row] for name, column in history.items()},
         {name: each.points for name, each in bodies.items()},
-        cells("region"), {name: each.displacement for name, each in bodies.items()}, cells("stress"),
-        at_points,
-        cells("von_mises"), cells("viscoplastic_strain"), cells("viscoplastic"), cells("error"), sides,
+        cells("region"), {name: each.displacement for name, each in bodies.items()},
+        {name: each.stress for name, each in bodies.items()}, at_points,
+        cells("von_mises"), cells("viscoplastic_strain"), cells("viscoplastic"), cells("error"),
+        [side_of(run.contact, index, each) for index, each in enumerate(run.summary["interfaces"])],
         **{"tetrahedra" if space else "triangles":
            {name: each.simplices if each.elements is None else each.elements
             for name, each in bodies.items()}})
+
+
+def side_of(contact: Any, index: int, interface: dict[str, str]) -> StoredContact:
+    """The rows of one interface of results.Contact; what it has no column of is 0."""
+    rows = contact.interface == index
+    columns = {name: getattr(contact, name) for name in NODAL}
+    found = {name: np.zeros(rows.sum()) if of is None else of[rows] for name, of in columns.items()}
+    return StoredContact(interface["nonmortar"], interface["mortar"], contact.position[rows],
+                         **{name: of.astype(np.int32 if name in ("vertex", "slipping") else float)
+                            for name, of in found.items()})

@@ -147,90 +147,6 @@ component = "y"
             self.assertIsNone(accuracy["bound"]["energy_error"])
             self.assertEqual(accuracy["bound"]["reason"], reason)
 
-    def test_steps_of_bodies_that_flow_have_a_bound_of_their_own(self):
-        flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
-        log, accuracy = self.bound(flowing, "--set", "time.steps=20")
-        found = accuracy["bound"]["time"]
-        strain = 100 * found["viscoplastic_strain"]
-        self.assertIn(f"guaranteed in time: viscoplastic strain to {strain:.2g} %, "
-                      "contact closed and open as in the run\n", log)
-        # About 1/2 of a step over the time of flow: the rate is that of the end of a step.
-        self.assertAlmostEqual(found["viscoplastic_strain"], 1.17 / 18, delta=0.1 / 18)
-        self.assertGreater(found["any_contact"]["viscoplastic_strain"], found["viscoplastic_strain"])
-        self.assertLess(found["data"], 1e-12)
-        _, other = self.bound(flowing.replace("3e11", "3e-4").replace("-10*t", "-1e-9*t")
-                              .replace("yield_stress = 1", "yield_stress = 1e-10"), "--set", "time.steps=20")
-        self.assertAlmostEqual(other["bound"]["time"]["viscoplastic_strain"], found["viscoplastic_strain"],
-                               delta=1e-9)
-        for settings, reason in [
-                (["time.scheme=sdirk2"], "steps are not those of backward Euler"),
-                (["body.upper.material.projection=elasticity"],
-                 "the flow of upper has no potential: Perzyna (elasticity)")]:
-            log, accuracy = self.bound(flowing, "--set", *settings)
-            self.assertIn(f"no guaranteed bound in time: {reason}\n", log)
-            self.assertEqual(accuracy["bound"]["time"], {"viscoplastic_strain": None, "reason": reason})
-        _, accuracy = self.bound(ELASTIC)
-        self.assertNotIn("time", accuracy["bound"])
-
-    def test_steps_and_meshes_of_bodies_that_flow_have_a_bound_together(self):
-        flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
-        log, accuracy = self.bound(flowing, "--set", "time.steps=20")
-        found = accuracy["bound"]["total"]
-        strain = found["viscoplastic_strain"]
-        self.assertIn(f"guaranteed of steps and meshes: viscoplastic strain to {100 * strain:.2g} %, "
-                      "contact closed and open as in the run; to", log)
-        # Mortar is exact here: what is left is what the steps do.
-        self.assertAlmostEqual(strain, 1.16 / 19, delta=0.1 / 19)
-        self.assertTrue(strain < found["any_contact"]["viscoplastic_strain"] < 1.3 * strain)
-        self.assertLess(found["lift"], 1e-9)
-        self.assertLess(found["data"], 1e-12)
-        _, other = self.bound(flowing.replace("3e11", "3e-4").replace("-10*t", "-1e-9*t")
-                              .replace("yield_stress = 1", "yield_stress = 1e-10"), "--set", "time.steps=20")
-        self.assertAlmostEqual(other["bound"]["total"]["viscoplastic_strain"], strain, delta=1e-9)
-        log, accuracy = self.bound(flowing, "--set", "contact.variant=interpolation", "time.steps=10")
-        found = accuracy["bound"]["total"]
-        self.assertGreater(found["viscoplastic_strain"], strain)
-        self.assertEqual(found["any_contact"]["reason"], "bodies flow in the first step")
-        for settings, reason in [
-                (["time.scheme=sdirk2"], "steps are not those of backward Euler"),
-                (["degree=2"], "displacements are quadratic"),
-                (["body.upper.material.projection=elasticity"],
-                 "the flow of upper has no potential: Perzyna (elasticity)")]:
-            log, accuracy = self.bound(flowing, "--set", *settings)
-            self.assertIn(f"no guaranteed bound of steps and meshes: {reason}\n", log)
-            self.assertEqual(accuracy["bound"]["total"], {"viscoplastic_strain": None, "reason": reason})
-        _, accuracy = self.bound(ELASTIC)
-        self.assertNotIn("total", accuracy["bound"])
-
-    def test_the_last_step_of_bodies_that_flow_has_a_bound_of_its_own(self):
-        law = ', viscosity = 10, yield_stress = 1, projection = "frobenius" }'
-        flowing = ELASTIC.replace(" }\n", law + "\n", 1)
-        flowing = flowing.replace("0.3 }\nboundary", "0.3" + law + "\nboundary")
-        self.assertEqual(flowing.count("frobenius"), 2)
-        _, accuracy = self.bound(flowing)
-        self.assertLess(accuracy["bound"]["step"]["viscoplastic_strain"], 1e-6)
-        for scheme in ("backward-euler", "sdirk2"):
-            log, accuracy = self.bound(flowing, "--set", "contact.variant=interpolation",
-                                       f"time.scheme={scheme}")
-            found = accuracy["bound"]["step"]
-            strain = found["viscoplastic_strain"]
-            self.assertIn(f"guaranteed in the last step: viscoplastic strain to {100 * strain:.2g} %", log)
-            self.assertTrue(1e-3 < strain < 0.5, strain)
-            parts = found["stress"] ** 2 + found["flow"] ** 2 + found["lift"] ** 2 + found["gap"] ** 2
-            self.assertAlmostEqual(found["absolute"] ** 2, parts, delta=1e-12 * parts)
-            self.assertLess(found["data"], 1e-12)
-        _, other = self.bound(flowing.replace("3e11", "30").replace("-10*t", "-1e-9*t")
-                              .replace("viscosity = 10", "viscosity = 1e-9")
-                              .replace("yield_stress = 1", "yield_stress = 1e-10"),
-                              "--set", "contact.variant=interpolation", "time.scheme=sdirk2")
-        self.assertAlmostEqual(other["bound"]["step"]["viscoplastic_strain"] / strain, 1, delta=1e-5)
-        log, accuracy = self.bound(flowing, "--set", "body.upper.material.projection=elasticity")
-        reason = "the flow of upper has no potential: Perzyna (elasticity)"
-        self.assertIn(f"no guaranteed bound of the last step: {reason}\n", log)
-        self.assertEqual(accuracy["bound"]["step"], {"viscoplastic_strain": None, "reason": reason})
-        _, accuracy = self.bound(ELASTIC)
-        self.assertNotIn("step", accuracy["bound"])
-
     def test_curved_lines_have_none(self):
         done = self.mortier("run", ROOT / "scenes" / "hertz.toml", "--out", "out", "--set",
                             "accuracy.bound=true", "time.steps=1")
@@ -250,28 +166,6 @@ component = "y"
         # A wave that is zero at all nodes and their quarters.
         _, waves = self.bound(ELASTIC.replace('"-10*t"', '"-10*t*(1 + 5*sin(24*pi*x))"'))
         self.assertGreater(waves["bound"]["absolute"], 3 * accuracy["bound"]["absolute"])
-
-    def test_data_that_jump_in_between_are_refused_or_bounded(self):
-        flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
-        peak = "{ time = [0, 0.05, 0.1, 1], value = [0, -8, -0.1, -0.9] }"
-        reason = "the traction on label 3 of upper is not linear in time within a step"
-        for load, steps, why in ((peak, 8, reason), ('"-10*sin(t)^2"', 20, reason),
-                                 ('"t < 0.5 ? -8*t : -12*t + 2"', 20, None)):
-            log, accuracy = self.bound(flowing.replace('"-10*t"', load), "--set", f"time.steps={steps}")
-            for part in ("time", "total"):
-                self.assertEqual(accuracy["bound"][part].get("reason"), why, (load, part))
-        _, accuracy = self.bound(flowing.replace('"-10*t"', '"-10*t*(1 + x^2)"'))
-        for part in ("total", "step"):
-            self.assertIn("the traction on label 3 of upper is not linear on sides",
-                          accuracy["bound"][part]["reason"])
-
-    def test_a_bound_never_ends_a_run(self):
-        # The last step is elastic: two numbers of the bound cancel.
-        for ratio in (0.929622, 0.7, 0.99):
-            text = TWO_BLOCKS.replace('"elasticity"', '"frobenius"').replace("-10*t", f"-{ratio}*t")
-            _, accuracy = self.bound('plane = "strain"\n' + text, "--set", "time.steps=11",
-                                     "contact.variant=interpolation")
-            self.assertIsNotNone(accuracy["bound"]["step"])
 
     def test_rounds_end_on_the_bound(self):
         self.write(SINGLE_CELLS.replace("cells = [3, 3]", "cells = [7, 1]")

@@ -13,6 +13,42 @@ import numpy as np
 from support import PROGRAM, ROOT, OfTwoBlocks, mortier
 import results
 
+ROLLERS_AND_TOOLS = """plane = "strain"
+BELOW
+[[body]]
+name = "middle"
+mesh = { shape = "quadrilateral", cells = [7, 3], cut = "both", corners = [[-0.85, 0], [0.83, 0],
+                                                                             [0.86, 0.53], [-0.85, 0.53]] }
+material = { young = 1000, poisson = 0.4999, viscosity = 1, yield_stress = 5 }
+boundary = [{ label = 2, un = 0 }]
+[[contact]]
+nonmortar = { body = "middle", label = 1 }
+mortar = { body = "below", label = 3 }
+friction = 1.5
+[[contact]]
+nonmortar = { body = "middle", label = 3 }
+mortar = { body = "above", label = 1 }
+friction = 1.5
+[[tool]]
+name = "above"
+shape = "polygon"
+points = [[-1.15, 0.53], [1.15, 0.53], [1.15, 0.8], [-1.15, 0.8]]
+uy = "-0.005*t"
+[time]
+end = 1
+steps = 2
+"""
+BELOW = {"tool": """[[tool]]
+name = "below"
+shape = "polygon"
+points = [[-1.15, -0.3], [1.15, -0.3], [1.15, 0], [-1.15, 0]]
+""", "block": """[[body]]
+name = "below"
+mesh = { shape = "rectangle", lower = [-1, -0.75], upper = [1, 0], cells = 3, cut = "both" }
+material = { young = 100, poisson = 0 }
+boundary = [{ label = 1, ux = 0, uy = 0 }]
+"""}
+
 
 class Compare(OfTwoBlocks):
     def compare(self, *words, code=0, environment=None):
@@ -44,6 +80,25 @@ class Compare(OfTwoBlocks):
         self.assertIn("displacement upper", self.beyond(lines))
         self.assertEqual(lines[-1], "scene.toml: differs; scene.difference.png")
         self.assertTrue((self.folder / "scene.difference.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_where_rollers_meet_tools_with_friction(self):
+        """A side held along a normal that is no axis, between a tool and a block, and between two tools: at
+        their ends more conditions hold a node than it has displacements."""
+        for below, chosen in (("block", False), ("tool", True)):
+            with self.subTest(below=below):
+                self.write(ROLLERS_AND_TOOLS.replace("BELOW", BELOW[below]))
+                lines = self.compare()
+                self.assertEqual(lines[-1], "scene.toml: agrees")
+                names = [line.split("  ")[0] for line in lines]
+                self.assertIn("stress middle", names)
+                self.assertEqual("contact force" in names, not chosen, "nodal forces are one choice of many")
+
+    def test_a_corner_on_a_slope_is_refused(self):
+        """FreeFEM's method has no contact at corners."""
+        self.write(ROLLERS_AND_TOOLS.replace("BELOW", BELOW["block"])
+                   .replace("[-0.85, 0.53]", "[-0.85, 0.46]"))
+        self.assertIn("contact: a corner or an end of a line that touches the other one",
+                      self.compare(code=2))
 
     def test_a_missing_code(self):
         done = mortier("compare", "scene.toml", cwd=self.folder,

@@ -84,6 +84,16 @@ def forces(kind, name, label=None, prefix=""):
                    for axis in "xy")
 
 
+def quantity(name, kind, of, label=None, component=None, more=""):
+    where = "" if label is None else f", label = {json.dumps(label)}"
+    text = f'[[quantity]]\nname = "{name}"\n{kind} = {{ body = "{of}"{where}{more} }}\n'
+    if component is not None:
+        text += f'component = "{component}"\n'
+        if component.startswith("moment"):
+            text += "about = [0, 0, 0]\n" if "_" in component else "about = [0, 0]\n"
+    return text
+
+
 def time(steps=1, end=1.0):
     return f"[time]\nend = {end!r}\nsteps = {steps}\n"
 

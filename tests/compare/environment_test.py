@@ -12,7 +12,7 @@ from mutations import explore, require_whole
 from scenes import (BODY_KEYS, CONTACT_KEYS, ELASTIC_KEYS, FRICTION_KEYS, LAW_KEYS, TOOL_KEYS, TWO_BLOCKS,
                     lower_heat)
 from shape_scenes import GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS, SPACE_KEYS
-from support import PROGRAM, OfTwoBlocks, mortier, told, warned
+from support import HANGS, PROGRAM, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")
 
@@ -116,7 +116,7 @@ class Environment(OfTwoBlocks):
         process = subprocess.Popen([PROGRAM, "run", "scene.toml", "--set", "time.steps=200"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         process.stdout.close()
-        self.assertEqual((process.stderr.read(), process.wait(timeout=120)), (b"", 0))
+        self.assertEqual((process.stderr.read(), process.wait(timeout=HANGS)), (b"", 0))
         process.stderr.close()
         require_whole(self.folder / "out/scene")
 
@@ -157,7 +157,7 @@ class Environment(OfTwoBlocks):
                             ("closed/new", "Permission denied")):
             with self.subTest(out=out):
                 done = subprocess.run([*run, out], cwd=self.folder, capture_output=True, text=True,
-                                      timeout=60, **user)
+                                      timeout=HANGS, **user)
                 self.assertIn(done.returncode, (1, 2), done.stderr)
                 self.assertIn(reason, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
@@ -183,7 +183,7 @@ class Environment(OfTwoBlocks):
                                       f"time.steps={steps}"], text=True,
                                      cwd=self.folder, stderr=subprocess.PIPE) for steps in (1, 2, 3, 4)]
             for process in runs:
-                errors = process.communicate(timeout=60)[1]
+                errors = process.communicate(timeout=HANGS)[1]
                 self.assertTrue(process.returncode == 0 or (process.returncode == 2
                                                             and ": in use, " in errors), errors)
             self.assertIn(0, [process.returncode for process in runs])
@@ -197,7 +197,7 @@ class Environment(OfTwoBlocks):
                 for path in self.folder.glob(what):
                     vanish(path)
                 err = process.stderr.read()
-                self.assertEqual(process.wait(timeout=60), 1, err)
+                self.assertEqual(process.wait(timeout=HANGS), 1, err)
                 process.stderr.close()
                 self.assertEqual(len(told(err)), 1, err)
                 self.assertEqual(warned(err), ["output-large"])
@@ -223,7 +223,7 @@ class Environment(OfTwoBlocks):
         self.assertEqual(self.temporaries(), [left])
         self.assertIn("history.csv", self.names("out/" + left))
         living.send_signal(signal.SIGINT)
-        living.wait(timeout=60)
+        living.wait(timeout=HANGS)
         living.stderr.close()
         self.mortier("run", "scene.toml", "--quiet")
         require_whole(self.folder / "out/scene")

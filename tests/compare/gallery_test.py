@@ -6,8 +6,15 @@ from support import ROOT, InFolder
 from codes import run_mortier
 from results import read_csv
 from gallery import GALLERY, PICTURES, draw, error, run_entry
+import stated
 
 PAGE = (ROOT / "docs" / "gallery.md").read_text()
+
+
+def section(entry):
+    """Of the page, the one that names the scene."""
+    return re.search(rf"^## [^\n]*\n(?:(?!^## ).)*scenes/{entry.scene}\.toml.*?(?=^## |\Z)", PAGE,
+                     re.M | re.S)[0]
 
 
 class Gallery(InFolder):
@@ -18,6 +25,7 @@ class Gallery(InFolder):
                 for number in entry.numbers:
                     measured = f"{number.quantity}: {number.measure(run):.9g}, theory {number.theory:.9g}"
                     self.assertLessEqual(error(number, run), number.tolerance, measured)
+                    stated.check(self, section(entry), number.told, number.measure(run))
                 self.assertLess(run.summary["verification"]["force_balance"], entry.balance)
 
     def test_a_wrong_model_misses(self):
@@ -60,12 +68,10 @@ class Gallery(InFolder):
     def test_page_shows_every_scene(self):
         for entry in GALLERY:
             with self.subTest(entry.scene):
-                section = re.search(rf"^## [^\n]*\n(?:(?!^## ).)*scenes/{entry.scene}\.toml.*?(?=^## |\Z)",
-                                    PAGE, re.M | re.S)
-                self.assertIsNotNone(section, "no section names the scene")
-                self.assertIn(f"images/gallery/{entry.scene}.png", section[0])
+                told = section(entry)
+                self.assertIn(f"images/gallery/{entry.scene}.png", told)
                 for number in entry.numbers:
-                    self.assertIn(f"**{number.theory:.12g}**", section[0])
+                    self.assertIn(f"**{number.theory:.12g}**", told)
                 self.assertTrue((PICTURES / f"{entry.scene}.png").is_file())
 
     def test_pictures_are_drawn(self):

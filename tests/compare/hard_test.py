@@ -9,6 +9,8 @@ from support import PROGRAM, ROOT
 os.environ["MORTIER"] = PROGRAM
 sys.path.insert(0, str(ROOT / "bench"))
 import hard  # noqa: E402
+import published  # noqa: E402
+import stated  # noqa: E402
 
 
 class Hard(unittest.TestCase):
@@ -20,6 +22,8 @@ class Hard(unittest.TestCase):
                 value, off, verdict = hard.measure(row)
                 print(f"{row.case}: {row.value}: {value} ({row.exact}), {verdict}")
                 self.assertEqual(verdict.split(":")[0], row.test, f"{value}, off by {off}")
+                if row.published and (told := published.statement(row, value, off)):
+                    stated.check(self, published.PAGE.read_text(), *told)
 
 
 if __name__ == "__main__":

@@ -142,7 +142,7 @@ steps = 1
     def test_every_layer_is_a_target_with_its_headers(self):
         targets = (next(self.prefix.rglob("mortierTargets.cmake"))).read_text()
         layers = [path.name for path in (ROOT / "cpp").iterdir()
-                  if path.is_dir() and path.name not in ("commands", "ranks")]
+                  if path.is_dir() and path.name not in ("commands", "mumps")]
         self.assertGreaterEqual(len(layers), 10)
         for layer in layers:
             self.assertIn(f"add_library(mortier::{layer} ", targets)
@@ -152,7 +152,7 @@ steps = 1
     def test_man_page_says_what_help_says(self):
         page = next(self.prefix.rglob("man1/mortier.1"))
         shown = output("groff", "-man", "-ww", "-Tutf8", "-P-c", "-rLL=1000n", "-rHY=0", page)
-        self.assertNotIn("warning", shown)
+        self.assertNotIn("warning:", shown)
         # Tags and texts stand on lines of their own or side by side; words keep their order.
         words = re.sub(r".\x08", "", shown).split()
         known = list(commands(self.prefix / "bin/mortier"))
@@ -194,7 +194,7 @@ steps = 1
         output("cpack", "-G", "DEB", "-B", self.folder / "packages", cwd=BUILD)
         package, = (self.folder / "packages").glob("*.deb")
         facts = output("dpkg-deb", "--info", package)
-        for name in ("libcholmod", "libumfpack", "libopenblas", "libmuparser"):
+        for name in ("libcholmod", "libumfpack", "libopenblas"):
             self.assertRegex(facts, rf"\n Depends: [^\n]*{name}")
         self.assertRegex(facts, r"\n Recommends: [^\n]*python3-meshio")
         if (BUILD / "python").is_dir():  # the module is of one version of Python

@@ -196,7 +196,7 @@ class Scene:
             return self.line * math.pi / 4 * modulus * self.approach / 3
         return 4 / 3 * modulus * math.sqrt(self.curved) * self.approach ** 1.5
 
-    def faults(self, program, unknowns=30000):
+    def faults(self, program, unknowns=100000):
         run = solve(program, self.text(), "--accuracy", str(self.aim), "--max-unknowns", str(unknowns),
                     files=self.files, patience=400)
         if run.code not in (0, 1) or not run.summary:

@@ -10,10 +10,14 @@ import numpy as np
 
 import study_support  # noqa: F401
 from support import PROGRAM, ROOT, InFolder
+
+sys.path.insert(0, str(ROOT / "bench" / "peer_codes"))
 import calculix_code
+import drivers
 import peer
 import scene
 from perzyna import project
+from plan import Case
 
 STRESS_ERROR = {("mortier", "mortar"): 1e-12, ("FreeFEM", "mortar"): 1e-12, ("GetFEM", "mortar"): 1e-3,
                 ("CalculiX", "mortar"): 1e-4}
@@ -57,6 +61,13 @@ class Drivers(InFolder):
         self.write(json.dumps(document), "problem.json")
         return peer.Problem(str(self.folder / "problem.json"))
 
+    def test_what_they_do_not_know_is_refused(self):
+        for values in ((("degree", 2),), (("accuracy", 0.01),)):
+            with self.assertRaisesRegex(peer.RunFailure, "takes linear triangles of the meshes"):
+                drivers.require_plain(Case(values))
+        with self.assertRaisesRegex(peer.RunFailure, "equal steps"):
+            drivers.require_plain(Case((("scheme", "sdirk2"),)))
+
     def test_plane_strain_is_refused(self):
         with self.assertRaisesRegex(peer.RunFailure, "plane stress"):
             self.problem("plane=strain")
@@ -82,7 +93,7 @@ class Drivers(InFolder):
                                     cwd=self.folder, env={**os.environ, "PWD": str(self.folder)})
             self.assertEqual(script.returncode, 0, script.stderr)
             document = scene.load(self.folder / "sides.toml", settings)
-            scene.take_sides(document, script.stdout)
+            drivers.take_sides(document, script.stdout)
             self.write(json.dumps(document), "problem.json")
             problem = peer.Problem(str(self.folder / "problem.json"))
             self.assertEqual((problem.nonmortar, problem.nonmortar_label), nonmortar)
@@ -91,7 +102,7 @@ class Drivers(InFolder):
         annulus = subprocess.run([PROGRAM, "mesh", "annulus", "--cells", "24,2", "--span", "half",
                                   "arc.mesh"], cwd=self.folder)
         self.assertEqual(annulus.returncode, 0)
-        mesh = scene.Mesh(self.folder / "arc.mesh")
+        mesh = peer.Mesh(self.folder / "arc.mesh")
         x, y = mesh.points[mesh.line(2)].T
         np.testing.assert_allclose(np.unwrap(np.arctan2(y, x)), np.linspace(np.pi, 0, 25), atol=1e-12)
 

@@ -1,14 +1,18 @@
 """What mortier plot refuses, and what it never overwrites."""
+import io
 import json
 import resource
 import shutil
 import unittest
 import xml.etree.ElementTree as xml
 
+from PIL import Image
+
 from support import InFolder, mortier
 from damaged_results import explore
 from views_support import solve, view
 import files
+import pictures
 from ending import Wrong
 
 
@@ -120,15 +124,25 @@ class Refused(InFolder):
             xml.parse(self.folder / "titled.svg")
 
     def test_files_of_others_stay(self):
-        """What the program did not write, and what was changed since, whatever kind of file it is."""
-        (self.folder / "mine.txt").write_text("mine")
+        """What the program did not write, whatever kind of file it is; what it wrote is written again."""
         for kind in ("png", "svg", "gif", "html"):
             path = self.folder / f"a.{kind}"
-            files.put({path: b"drawn" * 30})
-            own = path.read_bytes()
+            words = ("report", "run") if kind == "html" else ("plot", "run", "--only", "fields", *(
+                ["--animate"] if kind == "gif" else []))
+            for _ in range(2):
+                self.assertEqual(view(self.folder, *words, "--out", path.name)[0::2], (0, ""))
+            own, drawn = path.read_bytes(), self.folder / "drawn"
+            drawn.write_bytes(own)
+            plain = io.BytesIO()
+            if kind in ("png", "svg"):  # of other programs that draw with matplotlib
+                figure, _ = pictures.plt.subplots()
+                figure.savefig(plain, format=kind)
+                pictures.plt.close(figure)
+            elif kind == "gif":
+                Image.new("RGB", (9, 9)).save(plain, "gif", comment="somebody else")
             for change in (lambda: path.write_bytes(b"mine"), lambda: path.write_bytes(b""),
-                           lambda: path.write_bytes(own[:40] + b"\0" + own[41:]),
-                           lambda: (path.unlink(), path.symlink_to("mine.txt")),
+                           lambda: path.write_bytes(plain.getvalue()),
+                           lambda: (path.unlink(), path.symlink_to("drawn")),
                            lambda: (path.unlink(), path.mkdir())):
                 change()
                 before = None if path.is_dir() else path.read_bytes()

@@ -51,7 +51,7 @@ class Pictures(InSharedFolder):
             self.assertEqual((self.folder / "interpolation.plots" / name).read_bytes(), before[name], name)
 
     def test_every_field_of_both_runs_side_by_side(self):
-        result = runs.Result(self.folder / "mortar")
+        result = runs.read(self.folder / "mortar")
         names = list(result.fields(result.at(4)))
         self.assertLessEqual({"von_mises", "s12", "u", "uy", "e22", "viscoplastic", "error", "region"},
                              set(names))
@@ -69,7 +69,7 @@ class Pictures(InSharedFolder):
                 pictures.plt.close(figure)
 
     def test_what_is_drawn_is_what_the_files_hold(self):
-        column = pictures.view(runs.Result(self.folder / "interpolation"))
+        column = pictures.view(runs.read(self.folder / "interpolation"))
         with pictures.plt.rc_context(pictures.STYLE):
             figure = pictures.fields([column], "von_mises", scale=3, raw=True)
             of_mesh = [c for c in figure.axes[0].collections if c.get_array() is not None]
@@ -105,7 +105,7 @@ class Pictures(InSharedFolder):
               "body.material.yield_stress=100",
               "body.lower.boundary=[{label=1, ux=0, uy=0}]",
               "body.upper.boundary=[{label=3, uy='-1e-11*t', ux='8e-12*t'}]")
-        column = pictures.view(runs.Result(self.folder / "rubbed"))
+        column = pictures.view(runs.read(self.folder / "rubbed"))
         contact, figure = column.run.contact, curves.contact([column])
         shear, slips = figure.axes[0].lines[1:3]
         self.assertGreater(np.abs(contact.shear).max(), 0)
@@ -117,7 +117,7 @@ class Pictures(InSharedFolder):
     def test_legends_cover_nothing(self):
         """Curves that fill their axes, names that fit in one row and names that do not."""
         for names in (("a", "b", "c"), tuple(f"{letter * 40} of a long name" for letter in "abc")):
-            columns = [pictures.view(runs.Result(self.folder / "interpolation")) for _ in names]
+            columns = [pictures.view(runs.read(self.folder / "interpolation")) for _ in names]
             for i, (each, name) in enumerate(zip(columns, names)):
                 # a zigzag from top to bottom, for each run its own: there is no free place
                 each.result.folder = self.folder / name
@@ -142,7 +142,7 @@ class Pictures(InSharedFolder):
             if swapped:
                 solve(self.folder, name, "contact.variant=interpolation", "contact.swap=true")
             run = results.read_mortier(self.folder / name)
-            line = runs.Result(self.folder / name).lines(run)[0]
+            line = runs.read(self.folder / name).lines(run)[0]
             x, penetration = results.jump(run)
             np.testing.assert_allclose(line.jump[0], x, rtol=0, atol=1e-12)
             np.testing.assert_allclose(line.jump[1], -penetration, rtol=0, atol=1e-12)
@@ -151,7 +151,7 @@ class Pictures(InSharedFolder):
 
     def test_curves_are_unrolled(self):
         solve(self.folder, "ring", scene="ring")
-        result = runs.Result(self.folder / "ring")
+        result = runs.read(self.folder / "ring")
         line = result.lines(result.at(result.step()))[0]
         self.assertAlmostEqual(line.lengths[-1], np.pi / 2, delta=1e-3)
         self.assertEqual(line.name, "length along the line")
@@ -163,7 +163,7 @@ class Pictures(InSharedFolder):
             if swapped:
                 solve(self.folder, name, "contact.variant=interpolation", "contact.swap=true")
             run = results.read_mortier(self.folder / name)
-            line = runs.Result(self.folder / name).lines(run)[0]
+            line = runs.read(self.folder / name).lines(run)[0]
             self.assertEqual(line.nonmortar, "lower" if swapped else "upper")
             for body in ("upper", "lower"):
                 ordinates = line.placed(run.bodies[body].points, 0 * run.bodies[body].displacement)[:, 1]
@@ -172,7 +172,7 @@ class Pictures(InSharedFolder):
     def test_rounding_is_not_drawn(self):
         """The overlap of the bodies with mortar is rounding, with interpolation it is not."""
         for name, drawn in (("mortar", False), ("interpolation", True)):
-            figure = curves.history([pictures.view(runs.Result(self.folder / name))])
+            figure = curves.history([pictures.view(runs.read(self.folder / name))])
             titles = [axes.get_title(loc="left") for axes in figure.axes]
             self.assertEqual("overlap of the bodies [m^2]" in titles, drawn)
             self.assertIn("contact force [N/m]", titles)
@@ -180,7 +180,7 @@ class Pictures(InSharedFolder):
             pictures.plt.close(figure)
 
     def test_recovered_values_are_means_and_constants_stay(self):
-        column = pictures.view(runs.Result(self.folder / "interpolation"))
+        column = pictures.view(runs.read(self.folder / "interpolation"))
         field = column.result.fields(column.run)["s22"]
         shown = pictures.shown_values(column, field, raw=False)
         for name, body in column.run.bodies.items():
@@ -215,7 +215,7 @@ class Pictures(InSharedFolder):
 
     def test_a_run_that_stopped_early(self):
         self.plot("stuck.failed")
-        result = runs.Result(self.folder / "stuck.failed")
+        result = runs.read(self.folder / "stuck.failed")
         self.assertIn("did not converge", result.reason)
         column = pictures.view(result)
         body, triangle, words = result.stuck(column.run)
@@ -223,7 +223,7 @@ class Pictures(InSharedFolder):
         self.assertEqual((body, triangle), (told["body"], told["triangle"]))
         corners = column.run.bodies[body].points[column.run.bodies[body].triangles[triangle]]
         self.assertLess(abs(corners.mean(0) - told["at"]).max(), 1e-12)
-        self.assertIn("furthest off its law", words)
+        self.assertIn("largest residual of the law", words)
         # Without it the largest stress is marked, as where a file has been damaged.
         for damaged in (None, {}, {"body": body}, {**told, "triangle": 10**6}, {**told, "body": ["x"]}):
             result.summary["stuck"] = damaged
@@ -240,7 +240,7 @@ class Pictures(InSharedFolder):
         solve(self.folder, "first", "contact.variant=interpolation", "solver.max_iterations=1",
               "time.steps=1", code=1)
         self.plot("first.failed")
-        result = runs.Result(self.folder / "first.failed")
+        result = runs.read(self.folder / "first.failed")
         self.assertIsNotNone(result.stuck(result.at(0)))
         del result.summary["stuck"]
         run = result.at(0)

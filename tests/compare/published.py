@@ -44,13 +44,17 @@ def right(row, verdict):
     return verdict == "within" or row.reference() is None and verdict.startswith("named")
 
 
+def at_largest(row, value):
+    """Of several values the one that is farthest off."""
+    if value is None or values(row) == 1:
+        return 0
+    value, reference = np.asarray(value, float), np.asarray(row.reference(), float)
+    return int(np.argmax(np.abs(value - reference) / (np.abs(reference) if row.each else 1)))
+
+
 def cells(row, value, off, verdict, seconds):
     """The row of the table; of several values the one with the largest difference."""
-    which = 0
-    if value is not None and off is not None and values(row) > 1:
-        value, reference = np.asarray(value, float), np.asarray(row.reference(), float)
-        scale = np.abs(reference) if row.each else 1
-        which = int(np.argmax(np.abs(value - reference) / scale))
+    which = at_largest(row, value) if off is not None else 0
     ours = shown(value, which) or verdict
     difference = "" if off is None else f"{off:.1e}"
     if not right(row, verdict):
@@ -62,6 +66,21 @@ def facts(row, which=0):
     """What the table says of a row whatever the run gives."""
     return [row.case, row.source, row.value, shown(row.exact, which), shown(row.theirs, which),
             f"{row.within:g}" if row.reference() is not None else ""]
+
+
+def statement(row, value, off):
+    """What the table states of a value that is more than rounding, as tests/compare/stated.py takes it: the
+    row with {} in place of our value and of its difference, and both."""
+    rounding = 1e-12
+    if value is None or off is None:
+        return None
+    if off < rounding and (values(row) > 1 or row.reference() == 0):
+        return None
+    which = at_largest(row, value)
+    words = facts(row, which)
+    seen = ["{}", "{}"] if off > 1e-7 else ["{}", "{_}"]
+    ours = float(np.atleast_1d(np.asarray(value, float))[which])
+    return line([*words[:5], *seen, words[5]])[:-1], ours, *([off] if off > 1e-7 else [])
 
 
 def line(words):

@@ -8,6 +8,7 @@ from support import PROGRAM
 os.environ["MORTIER"] = PROGRAM
 import known  # noqa: E402
 import published  # noqa: E402
+import stated  # noqa: E402
 
 
 class Published(unittest.TestCase):
@@ -19,6 +20,9 @@ class Published(unittest.TestCase):
                 value, off, verdict = known.measure(row)
                 print(f"{row.case}: {row.value}: {value} ({row.reference()}), {verdict}")
                 self.assertEqual(verdict.split(":")[0], row.test, f"{value}, off by {off}")
+                told = published.statement(row, value, off)
+                if told:
+                    stated.check(self, published.PAGE.read_text(), *told)
 
     def test_a_value_that_is_off_is_seen(self):
         for row in (known.Row("", "", "", exact=2.0, within=0.01),

@@ -27,7 +27,7 @@ CASES = {
                                          "body.material.yield_stress": 100,
                                          "body.lower.boundary.bottom.ux": 0}),
     "bound": ("exact-contact.toml", {"accuracy.bound": True}),
-    "flow-and-bound": ("compression.toml", {"accuracy.bound": True, "time.steps": 4,
+    "flow-and-no-bound": ("compression.toml", {"accuracy.bound": True, "time.steps": 4,
                                             "body.material.projection": "frobenius"}),
     "no-bound": ("hertz.toml", {"accuracy.bound": True, "time.steps": 1}),
     "accuracy-and-bound": ("punch.toml", {"accuracy.energy": 0.2, "accuracy.bound": True}),
@@ -149,11 +149,12 @@ component = "y"
         for name in ("degree-2", "viscoplastic"):
             scene, changes = CASES[name]
             run = mortier.load(SCENES / scene, set=changes).run(self.folder / f"seen-{name}")
-            read = pictures.views()["runs"].Result(run.folder)
+            read = pictures.views()["runs"].read(run.folder)
             result, ours = pictures.seen(run, run.last)
-            self.assertEqual((result.bodies, result.interfaces, result.kept, list(result.history)),
-                             (read.bodies, read.interfaces, read.kept, list(read.history)))
+            self.assertEqual((result.interfaces, result.kept, list(result.history)),
+                             (read.interfaces, read.kept, list(read.history)))
             theirs = read.at(run.last.number)
+            self.assertEqual(list(ours.bodies), list(theirs.bodies))
             for body, other in theirs.bodies.items():
                 for field, values in vars(other).items():
                     mine = getattr(ours.bodies[body], field)

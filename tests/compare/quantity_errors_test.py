@@ -1,4 +1,5 @@
 """Errors of quantities as they are estimated on one mesh, against those on meshes of four times the cells."""
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -27,10 +28,25 @@ class QuantityErrors(InFolder):
             errors = self.of(make, degree)
             for name in names:
                 with self.subTest(scene=make.__name__, degree=degree, quantity=name):
-                    estimated, true, _ = errors[name]
-                    self.assertGreater(estimated / true, 0.4)
+                    estimated, true, _ = errors[name]  # twice the estimate and 40 % of what cancels in it
+                    self.assertGreater(estimated / true, 0.8)
                     # The error of stabilised contact is smaller than the estimate knows.
-                    self.assertLess(estimated / true, 4 if make is scenes.hertz else 2.6)
+                    self.assertLess(estimated / true, 10 if make is scenes.hertz else 7)
+
+    def test_heat_between_the_points_of_the_stress_is_in_it(self):
+        """A bar between walls: the force is E alpha times the mean temperature, that of points is another."""
+        def heated(f):
+            text = scenes.body("bar", scenes.rectangle([0, 0], [2, 1], [4 * f, 2 * f]), scenes.STEEL.replace(
+                " }", ", expansion = 1e-3 }"), "{ label = 1, uy = 0 }", "{ label = 2, ux = 0 }",
+                "{ label = 4, ux = 0 }")
+            return (text + 'temperature = "t*x*(2 - x)"\n'
+                    + scenes.quantity("wall", "reaction", "bar", ", label = 2", "x")
+                    + scenes.quantity("top", "displacement", "bar", ", label = 3", "y") + scenes.STEP)
+
+        for name in ("wall", "top"):
+            estimated, true, _ = self.of(heated)[name]
+            self.assertGreater(true, 0)
+            self.assertTrue(0.8 < estimated / true < 5.2, estimated / true)
 
     def test_what_equilibrium_alone_decides_has_none(self):
         for make, name in ((scenes.cantilever, "held"), (scenes.lame, "held"),
@@ -38,16 +54,29 @@ class QuantityErrors(InFolder):
             estimated, _, each = self.of(make)[name]
             self.assertLess(estimated, 1e-10 * abs(each["value"]))
 
+    def test_where_the_stress_is_not_known_values_have_none(self):
+        """A disc on few cells: the stress is off by more than itself. Of the punch on as few it is not."""
+        def coarse(text):
+            text = re.sub(r"cells = \[(\d+), (\d+)\]", lambda at: "cells = [{}, {}]".format(
+                *(max(1, int(each)//8) for each in at.groups())), text)
+            return re.sub(r"cells = (\d+)", lambda at: f"cells = {max(2, int(at[1])//8)}", text)
+
+        found = scenes.run(coarse(scenes.hertz(1)), self.folder, "hertz")
+        for name in ("press", "contact", "sinks"):
+            self.assertIsNone(found[name]["estimated_error"])
+            self.assertRegex(found[name]["no_estimate"], r"the estimated error of the stress is \d{3} %")
+        found = scenes.run(coarse(scenes.punch(1)), self.folder, "punch")
+        self.assertGreater(found["press"]["estimated_error"], 0)
+
     def test_a_patch_has_none(self):
         self.assertEqual({name: error for name, (error, _, _) in self.of(scenes.patch).items()},
                          dict.fromkeys(("press", "contact", "pressure", "length", "energy_upper",
                                         "energy_lower", "mises"), 0))
 
-    def test_where_stresses_are_unbounded_there_is_an_order(self):
-        estimated, _, each = self.of(scenes.cantilever)["mises"]  # at the clamped end: sin^2 = ..., l = 0.758
+    def test_where_stresses_are_unbounded_there_is_none(self):
+        estimated, _, each = self.of(scenes.cantilever)["mises"]  # at the clamped end
         self.assertIsNone(estimated)
-        self.assertAlmostEqual(each["unbounded_order"], 0.242, delta=0.002)
-        self.assertEqual(each["no_estimate"], "stresses are unbounded there")
+        self.assertIn("unbounded there, at a corner or an end of a support", each["no_estimate"])
         self.assertNotIn("unbounded_order", self.of(scenes.lame)["mises"][2])
         estimated, _, each = self.of(scenes.punch)["pressure"]
         self.assertIsNone(estimated)

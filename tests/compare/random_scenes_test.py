@@ -6,7 +6,15 @@ from random_equalities import TOLERANCE, compare
 from random_scenes import Scene, explore
 from support import PROGRAM
 
-FIRST, COUNT = 176, 58
+COUNT = 234
+# What seeds 0 to 1000 are known to end with otherwise. One step at viscosities of 1e9 and more, by
+# Crank-Nicolson, of which no method finds the solution:
+UNSOLVED = (282, 337)
+# Backward Euler takes 70,000 steps for its tolerance, SDIRK2 as many for one of 2.5e-5, 15 to 30 s, or all
+# of max_steps: not run here.
+SLOW = (91, 269)
+# Contact lines without a node that faces the other one: the scene is refused.
+REFUSED = (360, 431)
 CHOICES = 80
 SPACE = 60
 EQUALITIES = 8
@@ -46,7 +54,9 @@ SECONDS = 25  # of processor time: seed 216 takes 10 to 15
 
 class RandomScenes(unittest.TestCase):
     def test_every_scene_ends_with_a_result_or_an_unheld_motion(self):
-        results = explore(PROGRAM, FIRST, COUNT, SECONDS)
+        first = min(SLOW)
+        results = explore(PROGRAM, 0, first, SECONDS)
+        results += explore(PROGRAM, first + 1, COUNT - first - 1, SECONDS)
         for seed in (MOVED, RINGING, SHORTEST, OVERLAP, SHORT_LIVED, FOLLOWING):
             results += explore(PROGRAM, seed, 1, SECONDS)
         for result in results:
@@ -54,7 +64,8 @@ class RandomScenes(unittest.TestCase):
                 self.assertIn(result["code"], (0, 3), result["told"])
                 if result["code"] == 3:
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")
-                    self.assertRegex(result["told"], "contact cannot hold|nothing holds")
+                    self.assertRegex(result["told"],
+                                     "contact cannot hold|no closed contact holds|nothing holds")
         self.assertGreater(sum(result["code"] == 0 for result in results), COUNT * 3 // 4)
 
     def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
@@ -79,6 +90,16 @@ class RandomScenes(unittest.TestCase):
             for way, column, difference in found:
                 with self.subTest(kind=kind.__name__, seed=seed, code=code, way=way, column=column):
                     self.assertLessEqual(difference, TOLERANCE)
+
+    def test_known_failures_have_their_reasons(self):
+        for seeds, code, reason in ((UNSOLVED, 1, "step 1 at .* viscosit"),
+                                    (REFUSED, 2, "overlap at no nonmortar node")):
+            for seed in seeds:
+                result, = explore(PROGRAM, seed, 1, SECONDS)
+                with self.subTest(seed=seed):
+                    self.assertIn(result["code"], (0, code), result["told"])
+                    if result["code"]:
+                        self.assertRegex(result["told"], reason)
 
     def test_what_is_not_solved_has_its_own_reason_soon(self):
         result, = explore(PROGRAM, CRAWLING, 1, SECONDS)

@@ -73,7 +73,7 @@ class Pages(InSharedFolder):
         self.assertIsNone(self.browser.run("return window.hacked || null"))
 
     def check_hover(self, name, run, step, field, count=6):
-        result = runs.Result(self.folder / name)
+        result = runs.read(self.folder / name)
         found = result.at(step)
         known = result.fields(found)[field]
         values = result.values(found, known)

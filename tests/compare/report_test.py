@@ -217,7 +217,7 @@ class Contents(Pages):
         """Interpolation on meshes that do not match alternates, mortar is exact."""
         widths = {}
         for name in ("mortar", "interpolation"):
-            result = runs.Result(self.folder / name)
+            result = runs.read(self.folder / name)
             run = result.at(100)
             line = result.lines(run)[0]
             body = run.bodies[line.nonmortar]

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from mutations import require_whole
-from support import PROGRAM, ROOT, InFolder, mortier
+from support import HANGS, PROGRAM, ROOT, InFolder, mortier
 import accuracies  # behind support: it is in compare/
 
 SCENE = str(ROOT / "scenes/compression.toml")
@@ -98,7 +98,7 @@ class Restart(InFolder):
             time.sleep(1e-4)  # shorter than a step; the run needs the processor
         time.sleep(pause)
         process.send_signal(by)
-        process.wait(timeout=60)
+        process.wait(timeout=HANGS)
         process.stderr.close()
         if process.returncode != 0:
             self.assertEqual(process.returncode, -by if by == signal.SIGKILL else 1)
@@ -154,6 +154,15 @@ class Restart(InFolder):
                 self.expect_same(whole, result)
                 self.assertEqual(list(self.folder.glob("out/*.*")), [])
 
+    def test_a_tool_that_rolls_goes_on_to_the_byte(self):
+        """Contact follows the bodies: what its rows were at the start of a step follows from the state."""
+        scene = str(ROOT / "scenes" / "roller.toml")
+        self.run_mortier(scene, "--out", "out/whole")
+        for after in (7, 10, 19, 22, 26):
+            self.stop(scene, "--out", f"out/killed-{after}", after=after)
+            self.run_mortier("--restart", f"out/killed-{after}")
+            self.expect_same("out/whole", f"out/killed-{after}")
+
     def test_killed_on_meshes_that_are_worth_threads(self):
         for name, cells, lower, upper in (("upper.mesh", 66, "0,0", "1,1"),
                                           ("lower.mesh", 64, "0,-1", "1,0")):
@@ -200,7 +209,7 @@ class Restart(InFolder):
         settings = ["--set", "output.every=7", "contact.variant=mortar", "time.scheme=sdirk2",
                     "time.tolerance=1e-5"]
         told = self.mortier("run", SCENE, *settings, "--out", "out/whole", timeout=300).stdout
-        self.assertIn("begun again", told)
+        self.assertIn("restarted with smaller steps", told)
         for after in (2, 9, 14):
             result = f"out/killed-{after}"
             self.stop(SCENE, *settings, "--out", result, after=after)

@@ -80,7 +80,6 @@ scheme = "sdirk2"
 tolerance = 1e-9
 max_iterations = 200
 linear = "suitesparse"
-distributed_from = 50
 [output]
 every = 2
 """

@@ -1,17 +1,21 @@
 #!/usr/bin/python3
-"""Draws docs/images/pictures/: the pictures of docs/pictures.md, from runs of the compression test.
+"""Draws docs/images/pictures/: the pictures of docs/pictures.md, from runs of the compression test, and that
+of the scene of README.md.
 
     tests/compare/screenshots.py [--out DIR]
 """
 import argparse
+import re
 import sys
 import tempfile
 from pathlib import Path
 
 from browser import Browser
-from support import ROOT
+from support import ROOT, mortier
 from views_support import solve, view
 import images
+import pictures
+import runs
 
 # of each page its width and height, whether it is dark, and the width of the picture
 PAGES = {"report": ("report", 1180, 1010, False, 640), "report-dark": ("report", 1180, 1010, True, 640),
@@ -36,6 +40,7 @@ def main():
             if code:
                 sys.exit(errors)
         save(out / "fields.png", (folder / "fields.png").read_bytes(), 700)
+        save(out / "roller.png", roller(folder), 640)
         for name, (page, width, height, dark, shown) in PAGES.items():
             browser = Browser(width, height, dark)
             try:
@@ -50,6 +55,18 @@ def main():
                 save(out / f"{name}.png", browser.picture(), shown)
             finally:
                 browser.close()
+
+
+def roller(folder):
+    """The bodies of the scene of README.md."""
+    scene = re.search(r"^```toml\n(.*?)^```", (ROOT / "README.md").read_text(), re.M | re.S)[1]
+    (folder / "roller.toml").write_text(scene)
+    done = mortier("run", "roller.toml", "--accuracy", "0.02", "--quiet", "--out", "roller", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    with pictures.plt.rc_context(pictures.STYLE):
+        seen = [pictures.view(runs.Result(folder / "roller"))]
+        figure = pictures.fields(seen, scale=1, window=(-9, 9, -7, 5), strips=False)
+        return images.picture(figure, "png", dpi=110)
 
 
 def save(path, png, width):

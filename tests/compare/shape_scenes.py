@@ -141,6 +141,17 @@ name = "floor"
 reaction = { body = "lower", label = "bottom" }
 component = "z"
 [[quantity]]
+name = "tips"
+reaction = { body = "lower", label = "bottom" }
+component = "moment_x"
+about = [0, 0.5, 0]
+[[quantity]]
+name = "touching"
+contact_area = { body = "upper", label = "bottom" }
+[[quantity]]
+name = "mean"
+mean_pressure = { body = "upper", label = "bottom" }
+[[quantity]]
 name = "corner"
 displacement = { body = "upper", point = [0.9, 0, 1] }
 component = "x"

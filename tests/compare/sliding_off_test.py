@@ -48,7 +48,7 @@ class SlidingOff(InFolder):
                         self.scene(degree, blockNonmortar, variant=f'variant = "{variant}"')
                         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
                         self.assertRegex(done.stderr, r"step [4-9] at t = 0\.[4-9]: .* slides by 0\.[1-4]\d*,"
-                                         r" past the end of label \d of body \w+, .*contact\.sliding")
+                                         r" past the end of label \d of body \w+: .*contact\.sliding")
                         summary = self.summary("out.failed")
                         self.assertEqual(summary["status"], "failed")
                         self.assertIn("past the end", summary["reason"])

@@ -105,6 +105,11 @@ class SpaceOracle(unittest.TestCase):
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(message, done.stderr)
 
+    def test_averaged_volume(self):
+        self.agree(BLOCK, "body.material.poisson=0.4999")
+        self.agree(CORNER, "body.wall.volume=averaged")
+        self.agree(CORNER, "body.volume=pointwise")
+
     def test_two_contacts(self):
         for variant in ("weighted", "mortar", "interpolation"):
             self.agree(CORNER, f"contact.variant={variant}")

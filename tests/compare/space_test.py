@@ -173,7 +173,6 @@ steps = 10
                 ("contact.friction=0.3", "friction, expected none"),
                 ("contact.sliding=finite", "sliding = \"finite\", expected none"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
-                ('body.upper.volume=averaged', 'expected pointwise'),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
                 ("body.upper.boundary.top.tz=w", "expected an expression in x, y, z, t"),
                 ("quantity.corner.displacement.point=[1, 1]", "expected three numbers, [x, y, z]"),
@@ -279,12 +278,24 @@ steps = 1
             with self.subTest(fault):
                 every = [word for each in settings for word in ("--set", each)]
                 checked = self.mortier("check", "scene.toml", *every).stdout
+                self.assertNotIn(fault, checked)
+                self.assertIn("volumetric strain averaged over patches of tetrahedra", checked)
+                every += ["--set", "body.volume=pointwise"]
+                checked = self.mortier("check", "scene.toml", *every).stdout
                 self.assertIn(fault, checked)
                 self.assertRegex(checked, "linear tetrahedra (lock|is nearly incompressible)")
                 done = self.mortier("run", "scene.toml", "--out", "out", "--quiet", *every)
                 self.assertIn(fault, done.stderr)
                 checked = self.mortier("check", "scene.toml", "--set", "degree=2", *every).stdout
                 self.assertNotIn(fault, checked)
+
+    def test_quadratic_tetrahedra_are_not_averaged(self):
+        said = self.mortier("run", "scene.toml", "--set", "degree=2", "body.upper.volume=averaged",
+                            code=2).stderr
+        self.assertIn('volume = "averaged", expected pointwise with degree = 2: quadratic tetrahedra do not '
+                      "lock", said)
+        checked = self.mortier("check", "scene.toml", "--set", "degree=2").stdout
+        self.assertNotIn("volumetric strain averaged", checked)
 
     def test_a_run_is_resumed_to_the_last_bit(self):
         settings = ["--set", "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}",

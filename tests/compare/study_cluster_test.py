@@ -12,7 +12,7 @@ import time
 import unittest
 
 from study_support import SPACE, StudyTest
-from support import PROGRAM, ROOT
+from support import HANGS, PROGRAM, ROOT
 
 COSTS = ("wall_time[s]", "processor_time[s]", "memory[MiB]", "at_once")
 LONG = bool(os.environ.get("MORTIER_LONG_STUDY"))
@@ -179,7 +179,7 @@ class Cluster(StudyTest):
         process = self.begin()
         self.wait_until(process, 1)
         process.terminate()
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=HANGS)
         self.assertEqual(process.returncode, 1)
         self.assertIn("interrupted; finished runs are kept", errors)
         until = time.monotonic() + 20
@@ -202,7 +202,7 @@ class Cluster(StudyTest):
         while "2/12" not in process.stdout.readline():
             self.assertIsNone(process.poll())
         self.end(self.scheduler)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=HANGS)
         self.assertEqual(process.returncode, 1, errors)
         self.assertRegex(errors, r"^mortier: \S+: the scheduler at \S+ is gone\n$")
         kept = len(self.rows())

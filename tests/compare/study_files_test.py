@@ -1,16 +1,21 @@
 """mortier study and what others wrote: names in its page and pictures, files in its folder."""
 import html
 import os
+import pickle
 import re
 import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree as xml
 
+import numpy as np
+
 from study_support import SPACE, StudyTest
 from support import PROGRAM, ROOT, told
 from folder import Folder
 from problems import StudyError
+import parcel
+import plan as plans
 from table import AFTER
 
 sys.path.insert(0, str(ROOT / "tests/fuzz"))
@@ -99,6 +104,51 @@ class StudyFiles(StudyTest):
     def one_line(self, code):
         line, = told(self.study("--quiet", code=code).stderr)
         return line
+
+    def test_a_task_is_data_of_others(self):
+        """What comes to `mortier study -` is made of values and classes of the study, and calls nothing."""
+        called = self.folder / "called"
+
+        class Call:
+            def __reduce__(self):
+                return os.system, (f"touch {called}",)
+
+        class Inside:
+            def __reduce__(self):
+                return parcel.RunFailure, (Call(),)
+        environment = {**os.environ, "MORTIER": PROGRAM}
+        stamp = subprocess.run([sys.executable, "-c", "import remote; print(remote.stamp().decode())"],
+                               cwd=ROOT / "study", env=environment, capture_output=True, text=True).stdout
+        for value in (Call(), Inside(), [1, {"a": Call()}]):
+            data = pickle.dumps(value)
+            with self.assertRaisesRegex(parcel.RunFailure, "nothing of a study: posix.system"):
+                parcel.unpacked(data)
+            done = subprocess.run([PROGRAM, "study", "-"], cwd=self.folder, capture_output=True,
+                                  input=stamp.strip().encode() + len(data).to_bytes(8, "little") + data)
+            self.assertEqual((done.returncode, done.stdout), (1, b""))
+            self.assertRegex(done.stderr.decode(), r"\Amortier: .*nothing of a study: posix.system\n\Z")
+        self.assertFalse(called.exists())
+        for data in (b"", b"no pickle", pickle.dumps([1, 2])[:-3]):
+            with self.assertRaises(parcel.RunFailure):
+                parcel.unpacked(data)
+
+    def test_plans_arrive_as_they_were_sent(self):
+        self.path.write_text(ONE_RUN.replace("exact = 10", "") + "[reference]\nsteps = 9\n" + """
+[let]
+a = "x + 2*y"
+[[error]]
+name = "b"
+quantity = "displacement"
+exact = { ux = "a*t", uy = 3 }
+""")
+        sent = plans.read(self.path)
+        plan = parcel.unpacked(parcel.packed(sent))
+        self.assertEqual((plan.cases(), plan.fingerprint, plan.reference, plan.path),
+                         (sent.cases(), sent.fingerprint, sent.reference, sent.path))
+        x, y = np.array([[1.0, 2.0], [3.0, 5.0]])
+        for one in (plan, sent):
+            a = dict(one.let)["a"](x, y, 2.0)
+            np.testing.assert_array_equal(one.errors[1].exact[""]["ux"](x, y, 2.0, a=a), [14, 24])
 
     def test_pipes_in_a_study(self):
         (self.folder / "study").mkdir()

@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from study_support import SPACE, STUDIES, StudyTest
-from support import PROGRAM, ROOT, mortier
+from support import HANGS, PROGRAM, ROOT, mortier
 
 import results
 
@@ -144,14 +144,14 @@ accuracy = [0.03, 0.003]
 name = "codes"
 degree = 2
 level = 2
-code = ["freefem", "calculix"]
+code = "freefem"
 [[compare]]
 error = "energy"
 at = 3e-3
 dear = { sweep = "uniform", degree = 1 }
 cheap = "adapted"
 """)
-        *rows, freefem, calculix = self.rows()
+        *rows, freefem = self.rows()
         self.assert_order("uniform, degree 1", "energy", 0.9, 1.05, "h")
         self.assert_order("uniform, degree 2", "energy", 1.2, 1.8, "h")
         for row in rows:
@@ -161,7 +161,6 @@ cheap = "adapted"
         same = next(row for row in rows if (row["degree"], row["level"]) == ("2", "2"))
         self.assertEqual(same["dofs"], freefem["dofs"])
         self.assertAlmostEqual(float(freefem["error energy"]) / float(same["error energy"]), 1, delta=1e-4)
-        self.assertEqual(calculix["reason"], "takes linear triangles of the meshes as they are only")
         ratio = re.search(r"dofs .* = (\S+) times", output)
         self.assertGreater(float(ratio[1]), 100)
 
@@ -196,21 +195,16 @@ cheap = "adapted"
         report = (self.out / "report.html").read_text()
         self.assertTrue("young = -1, expected young" in report)
 
-    def test_other_codes(self):
+    def test_another_code(self):
         text = (STUDIES / "exact-contact.toml").read_text()
         text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
-        self.path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem", "getfem", '
-                                    '"calculix"]\n')
-        # relative: some codes run in a folder of their own
+        self.path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem"]\n')
         self.mortier("study", "study.toml", "--out", "out")
         rows = self.rows()
         ours = float(rows[0]["error energy"])
         # FreeFEM integrates the tractions by another rule
-        for row, allowed in zip(rows, (0, 1e-6, 0.02, 0.1)):
+        for row, allowed in zip(rows, (0, 1e-6)):
             with self.subTest(row["code"]):
-                if row["code"] in ("getfem", "calculix") and row["status"] == "failed":
-                    self.assertIn("is not installed", row["reason"])
-                    continue
                 self.assertLessEqual(abs(float(row["error energy"]) / ours - 1), allowed, row["reason"])
                 self.assertAlmostEqual(float(row["error contact force"]),
                                        float(rows[0]["error contact force"]), delta=0.02)
@@ -241,7 +235,7 @@ cheap = "adapted"
         while "1/2" not in process.stdout.readline():
             self.assertIsNone(process.poll())
         process.terminate()
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=HANGS)
         self.assertEqual(process.returncode, 1)
         self.assertIn("interrupted; finished runs are kept", errors)
         self.assertEqual([row["status"] for row in self.rows()], ["done"])

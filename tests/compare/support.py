@@ -2,9 +2,11 @@
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -15,13 +17,18 @@ ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 COMPARE = ROOT / "compare"
 PROGRAM = str(Path(os.environ.get("MORTIER", ROOT / "build" / "mortier")).resolve())
 sys.path.insert(0, str(COMPARE))
+# Limits are of processor time, which other work on the machine does not change. What hangs takes none.
+HANGS = 900  # seconds for one process
+MOST = float(os.environ.get("MORTIER_TEST_SECONDS", "inf"))  # of processor time for all of a test
 
 
-def mortier(*arguments, **options):
-    """Runs the program; its standard output and errors are text."""
+def mortier(*arguments, timeout=120, **options):
+    """Runs the program; its standard output and errors are text. timeout: of processor time [s]"""
     options.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run([PROGRAM, *map(str, arguments)], **{"stderr": subprocess.PIPE, "text": True,
-                                                              "timeout": 120, **options})
+    return subprocess.run([PROGRAM, *map(str, arguments)],
+                          **{"stderr": subprocess.PIPE, "text": True, "timeout": HANGS,
+                             "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_CPU,
+                                                                      (timeout, timeout + 1)), **options})
 
 
 def warned(errors):
@@ -32,6 +39,43 @@ def warned(errors):
 def told(errors):
     """The lines of standard error that are no warnings."""
     return [line for line in errors.splitlines() if not line.startswith("mortier: warning: ")]
+
+
+def children_of(pid):
+    try:
+        return list(map(int, Path(f"/proc/{pid}/task/{pid}/children").read_text().split()))
+    except (FileNotFoundError, ProcessLookupError):
+        return []
+
+
+def processor_time(pid):
+    """Seconds that a process and its children have taken of the processors, those that have ended included:
+    what others do on the machine does not count."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except (FileNotFoundError, ProcessLookupError):
+        return 0.0
+    return (sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
+            + sum(map(processor_time, children_of(pid))))
+
+
+def watch():
+    while processor_time(os.getpid()) < MOST:
+        time.sleep(5)
+    print(f"ended: {MOST:g} s of processor time are over", file=sys.stderr, flush=True)
+    os._exit(1)
+
+
+if MOST < float("inf"):
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def time_to_end(process):
+    """The same that a process takes from now on until it ends."""
+    begin = processor_time(process.pid)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return used.ru_utime + used.ru_stime - begin
 
 
 def script(name, *arguments):

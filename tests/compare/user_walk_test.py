@@ -179,6 +179,9 @@ class Found(OfTwoBlocks):
         lifted = ("--set", "contact.gap=0.1", 'body.upper.boundary=[{label=4,ux=0},{label=3,uy="1e-3*t"}]')
         told = self.mortier("run", "scene.toml", *lifted).stdout
         self.assertIn("warning    the bodies never touched", told)
+        quiet = self.mortier("run", "scene.toml", "--quiet", *lifted)
+        self.assertIn("mortier: warning: scene.toml: the bodies never touched", quiet.stderr)
+        self.assertEqual(quiet.stdout, "")
         plotted = self.mortier("plot", "out/scene", env={**os.environ, "PYTHONWARNINGS": "always"})
         self.assertNotIn("Warning", plotted.stderr)
 

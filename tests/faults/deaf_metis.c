@@ -1,8 +1,6 @@
-// Loaded before a program (LD_PRELOAD): METIS gets the program a SIGTERM and never returns.
-#include <signal.h>
+// Loaded before a program (LD_PRELOAD): METIS never returns.
 #include <unistd.h>
 
 int cholmod_metis(void) {
-  raise(SIGTERM);
   for (;;) pause();
 }

@@ -95,7 +95,7 @@ inline Adapted adapt(const KnownProblem& problem, double accuracy) {
   while (result.verdict == Rounds::Verdict::goOn) {
     const Model model = problem.inSpace() ? problem.spaceModel(rounds.scene().spaceMeshes)
                                           : problem.model(rounds.scene().meshes);
-    CurrentSpaceError current(model);
+    CurrentMeshError current(model);
     ErrorHistory errors(model, current);
     State state = initialState(model);
     static_cast<void>(

@@ -18,8 +18,8 @@ inline RunReport runWith(
   return march(model, state, plan, {}, observer);
 }
 
-inline int count(const RunReport& run, const char* rung) {
-  const auto found = run.rungs.find(rung);
+inline int count(const RunReport& run, const char* method) {
+  const auto found = run.rungs.find(method);
   return found == run.rungs.end() ? 0 : found->second;
 }
 

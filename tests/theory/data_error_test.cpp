@@ -10,7 +10,7 @@
 #include "linear/condensing_solver.h"
 #include "material/elasticity.h"
 #include "mesh/generate.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier::data_error_test {
 
@@ -105,7 +105,7 @@ void expectSeen(const Conditions& conditions, double least, double most) {
     const Solution reference = solved(fine, degree, conditions);
     for (const int cells : {2, 4, 8}) {
       const Solution coarse = solved(cells, degree, conditions);
-      const double estimated = SpaceErrorEstimator(coarse.model)(coarse.state)[0].error.sum();
+      const double estimated = MeshErrorEstimator(coarse.model)(coarse.state)[0].error.sum();
       const double seen = std::sqrt(estimated / errorOf(coarse, reference, cells));
       EXPECT_GT(seen, least) << "degree " << degree << ", " << cells << " cells";
       EXPECT_LT(seen, most) << "degree " << degree << ", " << cells << " cells";
@@ -163,7 +163,7 @@ TEST(DataError, distancesOfShortWavesWhereBodiesPress) {
     }
     const auto estimated = [&](double force) {
       state.contactForce = {Vector::Constant(model.interfaces[0].rows(), force)};
-      return SpaceErrorEstimator(model)(state)[0].error.sum();
+      return MeshErrorEstimator(model)(state)[0].error.sum();
     };
     const double before = estimated(1);
     const double apart = estimated(0);

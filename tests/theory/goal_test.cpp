@@ -10,7 +10,7 @@
 #include "adapt/adapted_meshes.h"
 #include "bound/energy_bound.h"
 #include "theory/scenes.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier::goal_test {
 
@@ -55,7 +55,7 @@ std::vector<Found> refined(Way way, int rounds) {
     std::vector<Vector> errors = enclosure.parts;
     if (way == Way::energy) {
       errors.clear();
-      for (const ErrorEstimate& each : SpaceErrorEstimator(model)(state)) errors.push_back(each.error);
+      for (const ErrorEstimate& each : MeshErrorEstimator(model)(state)) errors.push_back(each.error);
     }
     double sum = 0;
     for (const Vector& each : errors) sum += each.sum();

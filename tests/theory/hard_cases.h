@@ -30,7 +30,7 @@ struct HardCase {
   bool slow = false;  ///< in the benchmark only
 };
 
-/// What the steps cost that took a rung.
+/// What the steps cost that took a method.
 struct RungCost {
   int steps = 0;
   int iterations = 0;  ///< linear solves, those of the methods tried before included
@@ -42,7 +42,7 @@ struct RungCost {
     most = std::max(most, other.most);
   }
 };
-using RungCosts = std::map<Rung, RungCost>;
+using RungCosts = std::map<SolutionMethod, RungCost>;
 
 struct HardResult {
   State state;
@@ -51,7 +51,9 @@ struct HardResult {
   double seconds = 0;
 
   /// The last resort of any step.
-  [[nodiscard]] Rung rung() const { return costs.empty() ? Rung::newton : costs.rbegin()->first; }
+  [[nodiscard]] SolutionMethod method() const {
+    return costs.empty() ? SolutionMethod::newton : costs.rbegin()->first;
+  }
   [[nodiscard]] bool meetsLimits() const {
     return report.status == Status::converged && report.worst.forceBalance <= forceBalanceLimit &&
            report.worst.complementarity <= complementarityLimit &&
@@ -64,7 +66,7 @@ inline HardResult solve(const Model& model, const TimePlan& plan) {
   const auto begin = std::chrono::steady_clock::now();
   HardResult result{initialState(model), {}, {}, 0};
   result.report = march(model, result.state, plan, {}, [&](const State&, const StepReport& report) {
-    if (report.step > 0) result.costs[report.rung].add({1, report.iterations, report.iterations});
+    if (report.step > 0) result.costs[report.method].add({1, report.iterations, report.iterations});
   });
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

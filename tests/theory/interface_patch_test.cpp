@@ -168,7 +168,9 @@ void expectSolved(const Model& model, const std::string& what) {
   EXPECT_EQ(report.status, Status::converged) << report.reason;
   EXPECT_LE(worst.forceBalance, 4e-14);
   EXPECT_LE(worst.complementarity, 2e-17);
-  EXPECT_LE(worst.gapOnActive, 3e-17);
+  // The rounding of displacements of 0.1: 3.5e-17 with OpenBLAS's kernels for Haswell and Zen, below 3e-17
+  // with those for SkylakeX, Sandybridge and Nehalem (OPENBLAS_CORETYPE).
+  EXPECT_LE(worst.gapOnActive, 4e-17);
   EXPECT_LE(worst.sign, 1e-16);
   EXPECT_LE(imbalance(model, state), imbalanceLimit);
 }

@@ -205,9 +205,9 @@ TEST(PlaneStrainContact, hardStepsAreFollowedAlongThePath) {
   for (const int steps : {3, 4, 5, 9, 11}) {
     const Result result = run(model, 1, steps);
     ASSERT_EQ(result.report.status, Status::converged) << steps << ": " << result.report.reason;
-    for (const auto& [rung, count] : result.report.rungs) {
-      if (rung == "interior-point") hard += count;
-      EXPECT_NE(rung, "cut");
+    for (const auto& [method, count] : result.report.rungs) {
+      if (method == "interior-point") hard += count;
+      EXPECT_NE(method, "cut");
     }
   }
   std::cout << hard << " steps were followed along the path\n";

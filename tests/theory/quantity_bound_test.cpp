@@ -34,10 +34,10 @@ double valueOf(const Functional& f, const Model& model, const State& state) {
                                                    : Quantity::Kind::displacement,
                     f.body,
                     f.label,
-                    f.turn != 0            ? Quantity::Component::moment
+                    f.turn != 0            ? Quantity::Component::momentZ
                     : f.direction.x() != 0 ? Quantity::Component::x
                                            : Quantity::Component::y,
-                    f.about,
+                    SpacePoint(f.about.x(), f.about.y(), 0),
                     {}};
   if (f.kind == Kind::displacement) quantity.mean = meanOn(model.bodies[f.body].mesh(), f.label);
   if (f.kind == Kind::meanPressure) quantity.shares = meanPressureShares(model, f.body, f.label, *f.part);

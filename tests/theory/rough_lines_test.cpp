@@ -196,7 +196,7 @@ TEST(RoughLines, pinTurnsInItsRing) {
       torque[0].kind = Quantity::Kind::reaction;
       torque[0].body = 0;
       torque[0].label = 1;
-      torque[0].component = Quantity::Component::moment;
+      torque[0].component = Quantity::Component::momentZ;
       double worst = 0;
       State state = initialState(model);
       const RunReport report =

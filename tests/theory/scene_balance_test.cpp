@@ -50,7 +50,7 @@ Wrench wrenchOf(const Vector& forces, const Body& body) {
 /// As it is reported.
 Wrench quantityOf(const Model& model, const State& state, Kind kind, int body, int label) {
   std::vector<Quantity> quantities;
-  const Component third = model.bodies[body].space() != nullptr ? Component::z : Component::moment;
+  const Component third = model.bodies[body].space() != nullptr ? Component::z : Component::momentZ;
   for (const Component component : {Component::x, Component::y, third})
     quantities.push_back({"w", kind, body, label, component});
   const std::vector<double> values = evaluate(quantities, model, state);

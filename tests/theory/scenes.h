@@ -140,6 +140,23 @@ Range displacementRange(const Body& body, const BodyState& state, int component,
   return range;
 }
 
+// The work of loads and supports on two bodies, as a run counts it (time/count_work.cpp).
+
+inline std::vector<Quantity> externalWorks() {
+  std::vector<Quantity> works(2);
+  for (int b = 0; b < 2; ++b) {
+    works[b].kind = Quantity::Kind::externalWork;
+    works[b].body = b;
+  }
+  return works;
+}
+inline double workSince(const State& before, const State& now) {
+  double work = 0;
+  for (size_t b = 0; b < now.bodies.size(); ++b)
+    work += now.bodies[b].work.external - before.bodies[b].work.external;
+  return work;
+}
+
 /// Exponent of h fitted to the errors by least squares.
 inline double fittedOrder(const std::vector<double>& h, const std::vector<double>& errors) {
   double x = 0;

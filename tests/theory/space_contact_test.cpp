@@ -10,7 +10,7 @@
 #include "material/overstress.h"
 #include "material/viscoelastic.h"
 #include "theory/extruded_contact.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier::space_contact_test {
 
@@ -43,7 +43,7 @@ KnownEnd solveKnownEnd(int cells, int degree, CouplingKind coupling) {
     addSpaceEnergies(model.bodies[b], state.bodies[b].stress, exact, error, norm);
   }
   double estimated = 0;
-  for (const ErrorEstimate& estimate : SpaceErrorEstimator(model)(state)) estimated += estimate.error.sum();
+  for (const ErrorEstimate& estimate : MeshErrorEstimator(model)(state)) estimated += estimate.error.sum();
   return {std::sqrt(error / norm), state.contactForce[0].sum(),
           model.bodies[0].freeDofs() + model.bodies[1].freeDofs(), std::sqrt(estimated / norm)};
 }

@@ -26,8 +26,9 @@ using namespace scenes;
 
 enum class Drive { traction, support, distance, temperature };
 constexpr const char* drives[] = {"traction", "support", "distance", "temperature"};
-constexpr const char* shapes[] = {"ramp",  "cubic",  "hold", "waves", "chirp",   "spike",
-                                  "table", "reload", "jump", "kinks", "constant"};
+constexpr const char* shapes[] = {"ramp",  "cubic",  "hold", "waves", "chirp",    "spike",
+                                  "table", "reload", "jump", "kinks", "constant", "cycles"};
+constexpr int cycles = 11;  // not among those of all drives
 constexpr const char* laws[] = {"perzyna", "hardening", "norton",      "solid",      "Maxwell",
                                 "power",   "own",       "own, strain", "orthotropic"};
 constexpr const char* places[] = {"", " on half", " in waves", " times x t", " that moves"};
@@ -95,6 +96,10 @@ inline Shape shapeOf(int kind, Random& random) {
       return {[=](double t) { return t < a ? 0.2 + 0.3 * b : 1.0; }};
     case 9:
       return {[=](double t) { return std::abs(2 * std::fmod(3 * t + b, 1.0) - 1) * t; }};
+    case cycles: {  // down and up again, ever faster; contact opens as soon as it has flowed
+      const double rate = random.in(0, 9);
+      return {[=](double t) { return 0.5 * (1 - std::cos(2 * pi * (1 + rate * t) * t)) - 0.2 * b * t; }};
+    }
     default:
       return {[](double) { return 1.0; }};
   }
@@ -182,12 +187,13 @@ inline std::shared_ptr<const Material> materialOf(const Case& of, Random& random
   }
 }
 
-inline Case randomCase(unsigned seed) {
+/// \param recloses  bodies are moved to and fro, so that contact opens and closes again
+inline Case randomCase(unsigned seed, bool recloses = false) {
   Random random(seed * 7919 + 13);
   for (int i = 0; i < 5; ++i) (void)random.engine();
   Case of;
-  of.drive = static_cast<Drive>(seed % 4);
-  const int kind = random.below(static_cast<int>(std::size(shapes)));
+  of.drive = static_cast<Drive>(recloses ? 1 + seed % 2 : seed % 4);
+  const int kind = recloses ? cycles : random.below(cycles);
   of.shape = shapeOf(kind, random);
   of.law = random.below(static_cast<int>(std::size(laws)));
   of.rough = random.below(4) == 0;
@@ -253,11 +259,11 @@ inline Case randomCase(unsigned seed) {
   }
   std::sort(of.plan.breaks.begin(), of.plan.breaks.end());
   of.plan.breaks.erase(std::unique(of.plan.breaks.begin(), of.plan.breaks.end()), of.plan.breaks.end());
-  of.name = std::string(drives[seed % 4]) + places[of.place] + ", " + shapes[kind] + ", " + laws[of.law] +
-            (of.plane == Plane::strain ? ", strain" : "") + (of.degree == 2 ? ", degree 2" : "") +
-            (of.rough ? ", rough" : "") + (of.scheme == Scheme::sdirk2 ? ", sdirk2" : ", Euler") + ", " +
-            nameOf(of.coupling) + ", E " + std::to_string(of.stiffness) + ", viscosity " +
-            std::to_string(of.viscosity);
+  of.name = std::string(drives[static_cast<int>(of.drive)]) + places[of.place] + ", " + shapes[kind] + ", " +
+            laws[of.law] + (of.plane == Plane::strain ? ", strain" : "") +
+            (of.degree == 2 ? ", degree 2" : "") + (of.rough ? ", rough" : "") +
+            (of.scheme == Scheme::sdirk2 ? ", sdirk2" : ", Euler") + ", " + nameOf(of.coupling) + ", E " +
+            std::to_string(of.stiffness) + ", viscosity " + std::to_string(of.viscosity);
   return of;
 }
 

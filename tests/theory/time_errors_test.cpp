@@ -78,6 +78,14 @@ TEST(TimeErrors, contactThatClosesLateInAStepIsSeen) {
   }
 }
 
+// Contact closes and the bodies yield at a peak of the motion just after a step ends: a step that goes on
+// from there to open contact has elastic stages only.
+TEST(TimeErrors, contactThatReclosesAtAPeakIsSeen) {
+  const auto material = perzynaMaterial({1e4, 0.3}, {10, 1, Projection::compliance});
+  const auto path = [](double t) { return 0.0103 * (std::cos(2 * std::numbers::pi * (1 + 9 * t) * t) - 1); };
+  expectAccurate(blocks(material, true, path, Scheme::sdirk2, 1e-3), "reclosing", 8000, 0.2);
+}
+
 // The displacement of a standard solid goes on under a constant load.
 TEST(TimeErrors, creepUnderAConstantLoadIsSeen) {
   for (const double time : {1e-3, 1e-2, 1e-1}) {
@@ -123,6 +131,15 @@ void expectAsAccurateAsTheySay(unsigned begin, unsigned end, unsigned another) {
   std::cout << good << " of " << runs << " within " << allowed << " tolerances\n";
   EXPECT_GE(runs, static_cast<int>(seeds.size()) - 2);
   EXPECT_GE(good, 0.95 * runs);
+}
+
+TEST(TimeErrors, randomRunsThatRecloseAreAsAccurateAsTheySay) {
+  for (const unsigned seed : {6U, 10U, 23U, 25U}) {
+    const Case of = randomCase(seed, true);
+    const Outcome outcome = outcomeOf(of, 1000, of.plan);
+    EXPECT_EQ(outcome.run.status, Status::converged) << of.name << outcome.run.reason;
+    EXPECT_LE(std::max(outcome.stress, outcome.displacement), allowed) << of.name << ", seed " << seed;
+  }
 }
 
 // Two tests, of as much work. 137: when contact closes depends on what flowed while it stuck, slipped and

@@ -9,7 +9,7 @@
 #include "mesh/shape.h"
 #include "theory/hard_cases.h"
 #include "theory/scenes.h"
-#include "time/space_error.h"
+#include "time/mesh_error.h"
 
 namespace mortier::units_test {
 
@@ -96,7 +96,7 @@ TEST(Units, ofSpaceDoNotChangeTheEstimatedError) {
     const auto [state, report] = scenes::run(model, 1, 1);
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     double sum = 0;
-    for (const ErrorEstimate& estimate : SpaceErrorEstimator(model)(state)) sum += estimate.error.sum();
+    for (const ErrorEstimate& estimate : MeshErrorEstimator(model)(state)) sum += estimate.error.sum();
     return sum / (stress * std::pow(length, 3));
   };
   const double one = solved(1, 1);

@@ -1,4 +1,4 @@
-// Bodies that hardly change their volume, with the averaged volumetric strain (fem/tangent_assembly.h):
+// Bodies that hardly change their volume, with the averaged volumetric strain (fem/volume_patches.h):
 // Cook's membrane, Hill's tube, Prandtl's punch, the error estimate; each also without it, where they lock.
 #include <gtest/gtest.h>
 

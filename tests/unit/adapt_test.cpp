@@ -116,6 +116,32 @@ TEST(AdaptedMeshes, halfOfTheErrorIsCutWhateverElse) {
   EXPECT_LE(meshes.mesh(1).triangles.size(), first.triangles.size() + 4);
 }
 
+// Sizes that differ are no error: only what has one is cut, whatever the elements beside it are like.
+TEST(AdaptedMeshes, aGradedMeshIsNotCutWhereItHasNoError) {
+  TetrahedronMesh graded = cuboidMesh({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  for (int i = 0; i < 15; ++i) {
+    std::vector<char> marked;
+    for (const auto& element : graded.tetrahedra)
+      marked.push_back(std::find(element.begin(), element.end(), 0) != element.end() ? 1 : 0);
+    graded = bisect(graded, {}, marked).mesh;
+  }
+  AdaptedMeshes meshes({graded}, {{}}, 1);
+  const auto count = static_cast<Eigen::Index>(graded.tetrahedra.size());
+  Vector error = Vector::Constant(count, 1e-12);
+  for (Eigen::Index t = 0; t < count; ++t)
+    for (const int v : graded.tetrahedra[static_cast<size_t>(t)])
+      if (v == 0) error[t] = 1;
+  meshes.refine({error}, 0.9 * std::sqrt(error.sum()));
+  const std::vector<std::array<int, 4>>& after = meshes.spaceMesh(0).tetrahedra;
+  for (const auto& element : graded.tetrahedra) {
+    const bool isFar = std::all_of(element.begin(), element.end(), [&](int v) {
+      return graded.vertices[static_cast<size_t>(v)].norm() > 0.3;
+    });
+    EXPECT_TRUE(!isFar || std::find(after.begin(), after.end(), element) != after.end());
+  }
+  EXPECT_GT(after.size(), graded.tetrahedra.size());
+}
+
 double smallestArea(const TriangleMesh& mesh) {
   double least = INFINITY;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)

@@ -32,6 +32,26 @@ int known(const std::vector<Arc>& arcs) {
   return static_cast<int>(std::count_if(arcs.begin(), arcs.end(), [](const Arc& arc) { return arc.known; }));
 }
 
+// A flat side of five nodes that goes on in an arc whose first nodes are off the tangent by less than what
+// coordinates of seven digits have: with the middles of a geometry it is flat.
+TEST(Arcs, aStraightSideBesideAnArcIsStraight) {
+  constexpr double radius = 2;
+  std::vector<Point> points{{-3, 0}, {-2, 0}, {-1, 0}, {0, 0}, {1, 0}};
+  const size_t flat = points.size() - 1;
+  const auto onArc = [](double angle) {
+    return Point(1 + radius * std::sin(angle), radius - radius * std::cos(angle));
+  };
+  std::vector<double> angles{0};
+  for (double angle = 1e-3; angle < 1.5; angle *= 2) angles.push_back(angle);
+  for (size_t i = 1; i < angles.size(); ++i) points.push_back(onArc(angles[i]));
+  std::vector<Point> middles;
+  for (size_t e = 0; e < flat; ++e) middles.emplace_back((points[e] + points[e + 1]) / 2);
+  for (size_t i = 1; i < angles.size(); ++i) middles.push_back(onArc((angles[i - 1] + angles[i]) / 2));
+  const std::vector<Arc> arcs = arcsOf(points, false, middles);
+  for (size_t e = 0; e < flat; ++e) EXPECT_LE(std::abs(arcs[e].curvature), 1e-12) << e;
+  for (size_t e = flat; e < arcs.size(); ++e) EXPECT_NEAR(arcs[e].curvature, 1 / radius, 1e-6) << e;
+}
+
 TEST(Arcs, circlesAreFoundWhateverTheirSizeAndSense) {
   constexpr double rounding = 1e-9;  // of the curvature: R^2/h^2 times that of the places
   for (const double radius : {1e-6, 1.0, 20.05, 1e6})

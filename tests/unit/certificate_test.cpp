@@ -82,7 +82,7 @@ TEST(Certificate, hasNoRoundingOfABodyThatWasMovedAndIsFreeOfStress) {
 
 TEST(Certificate, showsForcesThatPulledBeforeTheyWereSetToZero) {
   Solved solved;
-  solved.iterate.wrongForce = 0.1;
+  solved.iterate.largestTension = 0.1;
   EXPECT_NEAR(solved.certificate().sign, 0.1 / 0.5,
               1e-12);  // the largest nodal force is that of the load, 1/2
 }

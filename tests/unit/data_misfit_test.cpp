@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 /// A datum with what its text says about it.
 Datum datumOf(const std::string& text, Function value) {
   Datum datum(std::move(value));
-  describe(text, datum);
+  describe(*parseExpression(text, "").formula, false, datum);
   return datum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -30,51 +31,75 @@ Slopes slopesOf(const std::string& text, double x, double y, double t) {
   return valueAt<Slopes>(text, {Slopes(x, 4, 0), Slopes(y, 4, 1), Slopes(t, 4, 2)});
 }
 
-const char* const texts[] = {"-x^2",
-                             "2^-1",
-                             "2^3^2",
-                             "x - y - t",
-                             "x/y/t",
-                             "-2*3",
-                             "2*-x",
-                             "2^-y^2",
-                             "x < y < t",
-                             "x == x && 0 || 1",
-                             "1 || 0 && 0",
-                             "x > 1 ? 2 : y < 0 ? 3 : t",
-                             "x < y + 5",
-                             "x <= y",
-                             "x >= y",
-                             "x != y",
-                             "0.5e1*x + .25",
-                             "sin(x) + cos(y)*tan(t)",
-                             "asin(x/9) + acos(y/9) - atan(t)",
-                             "atan2(x, y)",
-                             "sinh(x) - cosh(y) + tanh(t)",
-                             "asinh(x) + acosh(2 + y) + atanh(t/9)",
-                             "exp(-x)*log(y) + ln(t) - log10(x) + log2(y)",
-                             "sqrt(x^2 + y^2)",
-                             "abs(x - y) + sign(y - x)",
-                             "min(x, y, t) + 2*max(x, y, t)",
-                             "rint(3*x) + x",
-                             "x^y",
-                             "x^2.5 + y^7 - t^-3",
-                             "(x + y)*(x - y)/(x*x + 1)",
-                             "pi*x + _pi*_e",
-                             "((x))"};
+struct Example {
+  const char* text;
+  double (*value)(double x, double y, double t);
+};
+#define EXAMPLE(text, value)                                                                      \
+  {                                                                                               \
+    text, [](double x, double y, double t) -> double { return (void)x, (void)y, (void)t, value; } \
+  }
+const Example examples[] = {
+    EXAMPLE("-x^2", -(x* x)),
+    EXAMPLE("2^-1", 0.5),
+    EXAMPLE("2^3^2", 512),
+    EXAMPLE("x - y - t", (x - y) - t),
+    EXAMPLE("x/y/t", (x / y) / t),
+    EXAMPLE("-2*3", -6),
+    EXAMPLE("2*-x", -2 * x),
+    EXAMPLE("2^-y^2", std::pow(2, -(y* y))),
+    EXAMPLE("x < y < t", (x < y ? 1 : 0) < t),
+    EXAMPLE("x == x && 0 || 1", 1),
+    EXAMPLE("1 || 0 && 0", 1),
+    EXAMPLE("x > 1 ? 2 : y < 0 ? 3 : t", x > 1 ? 2 : t),
+    EXAMPLE("x < y + 5", 1),
+    EXAMPLE("x <= y", x <= y),
+    EXAMPLE("x >= y", x >= y),
+    EXAMPLE("x != y", x != y),
+    EXAMPLE("0.5e1*x + .25", 5 * x + 0.25),
+    EXAMPLE("sin(x) + cos(y)*tan(t)", std::sin(x) + std::cos(y) * std::tan(t)),
+    EXAMPLE("asin(x/9) + acos(y/9) - atan(t)", std::asin(x / 9) + std::acos(y / 9) - std::atan(t)),
+    EXAMPLE("atan2(x, y)", std::atan2(x, y)),
+    EXAMPLE("sinh(x) - cosh(y) + tanh(t)", std::sinh(x) - std::cosh(y) + std::tanh(t)),
+    EXAMPLE("asinh(x) + acosh(2 + y) + atanh(t/9)", std::asinh(x) + std::acosh(2 + y) + std::atanh(t / 9)),
+    EXAMPLE("exp(-x)*log(y) + ln(t) - log10(x) + log2(y)",
+            std::exp(-x) * std::log(y) + std::log(t) - std::log10(x) + std::log2(y)),
+    EXAMPLE("sqrt(x^2 + y^2)", std::hypot(x, y)),
+    EXAMPLE("abs(x - y) + sign(y - x)", std::abs(x - y) + ((y > x) - (y < x))),
+    EXAMPLE("min(x, y, t) + 2*max(x, y, t)", std::min({x, y, t}) + 2 * std::max({x, y, t})),
+    EXAMPLE("rint(3*x) + x", std::floor(3 * x + 0.5) + x),
+    EXAMPLE("x^y", std::pow(x, y)),
+    EXAMPLE("x^2.5 + y^7 - t^-3", std::pow(x, 2.5) + std::pow(y, 7) - std::pow(t, -3)),
+    EXAMPLE("(x + y)*(x - y)/(x*x + 1)", (x * x - y * y) / (x * x + 1)),
+    EXAMPLE("pi*x + _pi*_e", M_PI* x + M_PI * M_E),
+    EXAMPLE("((x))", x)};
+#undef EXAMPLE
 
-// The language is that of all other expressions.
-TEST(Formulas, agreeWithMuParser) {
-  for (const std::string text : texts)
+TEST(Formulas, haveTheValuesOfMathematics) {
+  for (const auto& [text, function] : examples)
     for (const auto& [x, y, t] : {std::array{0.7, 1.3, 2.1}, {1.9, 0.4, 0.8}, {1.0, 1.0, 1.0}}) {
-      const double expected = parseExpression(text, "").value(x, y, t);
-      EXPECT_NEAR(valueOf(text, x, y, t), expected, 1e-12 * (1 + std::abs(expected))) << text;
+      const double expected = function(x, y, t);
+      EXPECT_NEAR(parseExpression(text, "").value(x, y, t), expected, 1e-12 * (1 + std::abs(expected)))
+          << text;
       EXPECT_NEAR(slopesOf(text, x, y, t).value(), expected, 1e-12 * (1 + std::abs(expected))) << text;
     }
 }
 
+// What is read of the operations: products with t, and times at which a datum may have kinks.
+TEST(Formulas, knowTheirCourseInTime) {
+  const auto formula = [](const std::string& text) { return *parseExpression(text, "").formula; };
+  for (const char* text : {"t", "-10*t", "x*t/2", "sin(x)*t - 3*t", "(x < 0 ? 2 : 1)*t", "x < 0 ? t : 2*t"})
+    EXPECT_TRUE(proportionalToTime(formula(text))) << text;
+  for (const char* text : {"x", "t + 1", "t*t", "1/t", "sin(t)", "t < 1 ? t : 2*t", "min(t, 1)", "t^2"})
+    EXPECT_FALSE(proportionalToTime(formula(text))) << text;
+  EXPECT_EQ(kinksInTime(formula("t < 0.5 ? t : 1 - t")), std::vector{0.5});
+  EXPECT_EQ(kinksInTime(formula("0.25 >= t ? x : y")), std::vector{0.25});
+  EXPECT_EQ(kinksInTime(formula("min(t, 0.3) + max(t, 0.7)")), (std::vector{0.3, 0.7}));
+  EXPECT_TRUE(kinksInTime(formula("x < 0.5 ? t : t^2")).empty());
+}
+
 TEST(Formulas, slopesAreThoseOfDifferences) {
-  for (const std::string text : texts)
+  for (const auto& [text, function] : examples)
     for (const auto& point : {std::array{0.71, 1.3, 2.1}, {1.9, 0.43, 0.8}}) {
       const Slopes result = slopesOf(text, point[0], point[1], point[2]);
       for (int k = 0; k < 3; ++k) {

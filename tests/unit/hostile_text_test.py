@@ -24,7 +24,7 @@ class HostileText(support.OfTwoBlocks):
     def solve(self, script):
         """FreeFEM reads all of a script; it has no time to solve anything."""
         if shutil.which("FreeFem++-nw") is None:
-            return
+            self.skipTest("FreeFEM is not installed")
         text = (self.folder / script).read_bytes()
         head = text.split(b"// Boundary conditions")[0]
         self.assertIn(b"real E2", head)

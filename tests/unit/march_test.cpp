@@ -123,7 +123,7 @@ TEST(March, theReportAddsUpItsSteps) {
     factorisations += step.factorisations;
     most = std::max(most, step.iterations);
     worst = std::max(worst, step.certificate.materialResidual);
-    ++rungs[nameOf(step.rung)];
+    ++rungs[nameOf(step.method)];
     vonMises.raise(step.vonMises, step.time);
   }
   const RunReport& run = result.report;
@@ -145,7 +145,8 @@ TEST(March, restsWhereNothingChanges) {
   const Marched result = run(model, {.end = 1, .steps = 8});
   for (size_t i = 1; i < result.calls.size(); ++i) {
     const StepReport& report = result.calls[i].report;
-    EXPECT_EQ(report.rung, report.time <= 0.5 ? Rung::newton : Rung::rest) << report.time;
+    EXPECT_EQ(report.method, report.time <= 0.5 ? SolutionMethod::newton : SolutionMethod::rest)
+        << report.time;
     EXPECT_EQ(report.iterations, report.time <= 0.5 ? 1 : 0) << report.time;
   }
   SolverOptions everything;

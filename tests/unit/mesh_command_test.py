@@ -29,12 +29,13 @@ class MeshCommand(OfTwoBlocks):
                                   if line.startswith("label")], labels)
         for arguments, message in [
                 (["rectangle", "--cells", "2", "--cut", "up"],
-                 "--cut up: expected one of rising, falling, both"),
-                (["rectangle", "--cells", "2", "--grading", "2"], "--grading 2: expected with --focus X,Y"),
+                 '--cut up: cut = "up", expected one of rising, falling, both'),
+                (["rectangle", "--cells", "2", "--grading", "2"],
+                 "--grading 2: grading = 2, expected it beside focus"),
                 (["rectangle", "--cells", "2", "--grading", "2", "--focus", "3,0"],
                  "rectangle 2x2 of (0, 0) to (1, 1): focus (3, 0)"),
                 (["annulus", "--cells", "8,2", "--span", "third"],
-                 "--span third: expected one of quarter, half, full"),
+                 '--span third: span = "third", expected one of quarter, half, full'),
                 (["annulus", "--cells", "8,2", "--inner", "3"],
                  "annulus of radii 3 and 2 about (0, 0), expected"),
                 (["quadrilateral", "--cells", "2", "--corners", "0,0", "0,1", "1,1", "1,0"],

@@ -148,6 +148,19 @@ TEST_F(Output, namesInLocksAreThoseOfTheRunOrNothing) {
       EXPECT_EQ(contentOf(path + "/b.tmp-7/summary.json"), "of another") << name << " in " << folder;
       for (const char* made : {"a.tmp-1", "a", "a.failed"}) fs::remove_all(path + "/" + made);
     }
+  // A sibling of that name that is another folder than the one that was replaced, and that one.
+  for (const std::string more : {"", "\nin place of 1", "\nin place of ", "\nin place of 7x", "NUMBER"})
+    for (const char* folder : {"a", "a.failed"}) {
+      result("a.tmp-7", {{"summary.json", "old"}});
+      put("a.tmp-7/notes", "mine");
+      const bool isOld = more == "NUMBER";
+      stopped(folder,
+              "a.tmp-7" + (isOld ? "\nin place of " + std::to_string(numberOf(path + "/a.tmp-7")) : more));
+      { const OutputFolder next(path + "/a"); }
+      EXPECT_EQ(fs::exists(path + "/a.tmp-7/summary.json"), !isOld) << more << " in " << folder;
+      EXPECT_EQ(contentOf(path + "/" + (isOld ? folder : "a.tmp-7") + "/notes"), "mine") << more;
+      for (const char* made : {"a.tmp-7", "a", "a.failed"}) fs::remove_all(path + "/" + made);
+    }
   // A folder that was renamed since: the old result is where the new one was.
   result("a", {{"summary.json", "old"}});
   stopped("a.tmp-8", "a.tmp-3");

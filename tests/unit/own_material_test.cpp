@@ -9,6 +9,7 @@
 #include "material/deviatoric.h"
 #include "material/interior_path.h"
 #include "material/norton.h"
+#include "material/perzyna.h"
 #include "material/rate_law.h"
 #include "material/viscoelastic.h"
 

@@ -32,7 +32,7 @@ TEST(ProximalContact, closesASetToRounding) {
       for (int i = begin; i < end; ++i) solution.active[i] = random() % 10 != 0 ? 1 : 0;
       Work work(problem);
       ProximalContact contact(problem, idle, pattern.slack, p0, pattern.balance, work);
-      contact.centre(Vector::Zero(motions));
+      contact.setProximalPoint(Vector::Zero(motions));
       ASSERT_TRUE(contact.solveOn(solution));
       const Vector& p = solution.change;
       Vector exact = pattern.slack + problem.W * p - problem.G * solution.rigid;

@@ -49,7 +49,7 @@ TEST(Quantity, reactionsBalanceLoads) {
   const State state = solved(model);
   std::vector<Quantity> quantities;
   for (const int label : {1, 4})
-    for (const Component component : {Component::x, Component::y, Component::moment})
+    for (const Component component : {Component::x, Component::y, Component::momentZ})
       quantities.push_back({"r", Kind::reaction, 0, label, component, {0, 0}});
   const std::vector<double> r = evaluate(quantities, model, state);
   EXPECT_EQ(r[0], 0) << "a roller along the base holds nothing along it";
@@ -58,7 +58,7 @@ TEST(Quantity, reactionsBalanceLoads) {
   EXPECT_NEAR(r[3], -0.5, 1e-13);
   EXPECT_NEAR(r[2] + r[5], 2 + 8.0 / 3 + 0.5 + 0.25, 1e-12);
   // Seen from another point the moment changes by the force.
-  const Quantity moved{"m", Kind::reaction, 0, 1, Component::moment, {0.75, 3}};
+  const Quantity moved{"m", Kind::reaction, 0, 1, Component::momentZ, {0.75, 3, 0}};
   EXPECT_NEAR(evaluate({moved}, model, state)[0], r[2] - 0.75 * r[1], 1e-12);
   EXPECT_EQ(quantities[2].unit(), "N");
   EXPECT_EQ(quantities[0].unit(), "N/m");
@@ -107,11 +107,11 @@ TEST(Quantity, contactForcesPassThroughABody) {
   };
   EXPECT_NEAR(value(Kind::contactForce, 0, 1, Component::y), 1.5, 1e-12);
   EXPECT_NEAR(value(Kind::contactForce, 1, 3, Component::y), -1.5, 1e-12);
-  EXPECT_NEAR(value(Kind::contactForce, 0, 1, Component::moment),
-              -value(Kind::contactForce, 1, 3, Component::moment), 1e-12);
+  EXPECT_NEAR(value(Kind::contactForce, 0, 1, Component::momentZ),
+              -value(Kind::contactForce, 1, 3, Component::momentZ), 1e-12);
   EXPECT_NEAR(value(Kind::reaction, 1, 1, Component::y), 1.5, 1e-12);
-  EXPECT_NEAR(value(Kind::reaction, 1, 1, Component::moment),
-              -value(Kind::contactForce, 1, 3, Component::moment), 1e-12);
+  EXPECT_NEAR(value(Kind::reaction, 1, 1, Component::momentZ),
+              -value(Kind::contactForce, 1, 3, Component::momentZ), 1e-12);
 }
 
 // Blocks that are held sideways: the pressure of contact is that of the load.

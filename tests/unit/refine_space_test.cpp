@@ -78,7 +78,7 @@ TEST(RefineSpace, allTetrahedraOfAnEdgeAreCut) {
   EXPECT_EQ(next.mesh.tetrahedra.size(), 12U);  // all six have the diagonal
   EXPECT_EQ(next.parents, (std::vector<int>{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}));
   EXPECT_EQ(next.mesh.vertices.back(), SpacePoint(0.5, 0.5, 0.5));
-  EXPECT_EQ(next.cutEdges.size(), 1U);
+  EXPECT_EQ(next.mesh.vertices.size(), mesh.vertices.size() + 1);
   EXPECT_EQ(next.mesh.boundaryTriangles, mesh.boundaryTriangles);
   EXPECT_EQ(bisect(mesh, {}, std::vector<char>(6, 0)).mesh.tetrahedra, mesh.tetrahedra);
 }

@@ -22,7 +22,7 @@ struct Blocks {
 
   [[nodiscard]] Accuracy accuracy() const {
     AccuracyMemory none;
-    CurrentSpaceError error(model);
+    CurrentMeshError error(model);
     error.moveTo(state);
     return AccuracyRecord(model, error, none).atEnd({});
   }
@@ -70,7 +70,7 @@ TEST(Accuracy, ofTheRunIsThatOfAStateWhichHasItsLargestEnergy) {
   Peaks peaks;
   peaks.energy.raise(energy, 0.25);
   AccuracyMemory none;
-  CurrentSpaceError error(blocks.model);
+  CurrentMeshError error(blocks.model);
   error.moveTo(blocks.state);
   const Accuracy accuracy = AccuracyRecord(blocks.model, error, none).atEnd(peaks);
   EXPECT_GT(accuracy.all, 0.01);
@@ -83,7 +83,7 @@ TEST(Accuracy, ofTheRunIsThatOfAStateWhichHasItsLargestEnergy) {
 
 TEST_F(Output, fieldsNameEveryBodyAndStep) {
   const Blocks blocks;
-  CurrentSpaceError error(blocks.model);
+  CurrentMeshError error(blocks.model);
   error.moveTo(blocks.state);
   Fields fields(path, blocks.model, error);
   fields.add(blocks.state, 0);
@@ -97,7 +97,7 @@ TEST_F(Output, fieldsNameEveryBodyAndStep) {
 TEST_F(Output, fieldsThatAreNotFiniteAreNotWritten) {
   Blocks blocks;
   blocks.state.bodies[1].stress(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  CurrentSpaceError error(blocks.model);
+  CurrentMeshError error(blocks.model);
   error.moveTo(blocks.state);
   Fields fields(path, blocks.model, error);
   EXPECT_THROW(fields.add(blocks.state, 0), OutputError);

@@ -249,7 +249,6 @@ TEST_F(SceneFiles, defaultsOfKeysAreThoseOfTheTypes) {
   EXPECT_EQ(scene.solver.tolerance, solver.tolerance);
   EXPECT_EQ(scene.solver.maxIterations, solver.maxIterations);
   EXPECT_EQ(scene.solver.linear, solver.linear);
-  EXPECT_EQ(scene.solver.distributedFrom, solver.distributedFrom);
   EXPECT_EQ(scene.solver.reduce, solver.reduce);
   EXPECT_EQ(scene.solver.listSolutions, solver.listSolutions);
   EXPECT_EQ(scene.time.maxSteps, TimePlan().maxSteps);

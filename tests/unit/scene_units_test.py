@@ -11,7 +11,7 @@ from scenes import HELD_AND_PRESSED, TWO_BLOCKS  # noqa: E402
 from support import ROOT, OfTwoBlocks  # noqa: E402
 
 sys.path.insert(0, str(ROOT / "views"))
-from runs import Result  # noqa: E402
+import runs  # noqa: E402
 
 # TWO_BLOCKS with every number in a unit of its own.
 MEASURED = TWO_BLOCKS.replace("young = 3e11", 'young = "300 GPa"').replace(
@@ -68,7 +68,7 @@ class SceneUnits(OfTwoBlocks):
                     expected = float(x) / (3600 if name.startswith("time") else 1)
                     self.assertAlmostEqual(expected, float(y), delta=1e-9 * abs(expected) + 1e-15, msg=name)
         self.assertEqual(json.loads(self.read("hours/summary.json"))["units"]["time"], "h")
-        self.assertEqual(Result(self.folder / "hours").time_unit, "h")
+        self.assertEqual(runs.read(self.folder / "hours").time_unit, "h")
         self.mortier("freefem", "hours.toml", "hours.edp")
         self.assertIn("// viscosity [Pa h]", self.read("hours.edp"))
 
@@ -128,7 +128,7 @@ class SceneUnits(OfTwoBlocks):
         summary = json.loads(self.read("out/summary.json"))
         self.assertEqual(summary["units"], {"length": "mm", "force": "N", "stress": "MPa", "time": "s"})
         self.assertEqual(summary["quantities"]["top"]["unit"], "mm")
-        result = Result(self.folder / "out")
+        result = runs.read(self.folder / "out")
         self.assertEqual((result.length_unit, result.stress_unit), ("mm", "MPa"))
         script = self.mortier("freefem", "out.toml", "out.edp")
         self.assertEqual(script.returncode, 0)

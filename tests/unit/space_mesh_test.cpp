@@ -88,7 +88,7 @@ TEST_F(SpaceMesh, labelsInsideAreDropped) {
           mesh.boundaryLabels.push_back(7);
         }
   EXPECT_EQ(mesh.boundaryTriangles.size(), labelled + 2);
-  dropInnerTriangles(mesh);
+  dropInnerSides(mesh);
   EXPECT_EQ(mesh.boundaryTriangles.size(), labelled);
 }
 

@@ -1,5 +1,7 @@
-"""No line is longer than 110 characters, but for rows of Markdown tables and single long words."""
+"""No line is longer than 110 characters, but for rows of Markdown tables and single long words; files that
+comments of C++ name are there."""
 import os
+import re
 import unittest
 from pathlib import Path
 
@@ -31,6 +33,30 @@ class Style(unittest.TestCase):
                     long.append(f"{path.relative_to(ROOT)}:{number}: {len(line)} characters")
         self.assertEqual(long, [])
         self.assertGreater(read, 40_000)
+
+    def test_files_that_comments_name_are_there(self):
+        names = {path.name for path in sources()}
+        named, missing = 0, []
+        for path in (*(ROOT / "cpp").rglob("*.h"), *(ROOT / "cpp").rglob("*.cpp")):
+            for comment in re.findall(r"//(.*)", path.read_text(encoding="utf-8")):
+                for file in re.findall(r"\b\w[\w/]*\.(?:h|cpp|py|md|idp|edp|js)\b", comment):
+                    named += 1
+                    place = Path(file)
+                    there = (any((folder / place).is_file() for folder in (ROOT / "cpp", ROOT, path.parent))
+                             if "/" in file else place.name in names)
+                    if not there:
+                        missing.append(f"{path.relative_to(ROOT)}: {file}")
+        self.assertEqual(missing, [])
+        self.assertGreater(named, 100)
+
+    def test_rules_and_numbers_of_many_digits_stand_in_one_place(self):
+        """Quadrature rules, units and the like: a copy in another file drifts."""
+        places = {}
+        for path in (ROOT / "cpp").rglob("*.*"):
+            for number in re.findall(r"\b\d+\.\d{7,}\b", path.read_text(encoding="utf-8")):
+                places.setdefault(f"{float(number):.9g}", set()).add(str(path.relative_to(ROOT)))
+        self.assertEqual({number: files for number, files in places.items() if len(files) > 1}, {})
+        self.assertGreater(len(places), 40)
 
     def test_a_long_line_would_be_seen(self):
         table, prose = "| " + "word " * 30 + "|", "word " * 30

@@ -110,9 +110,9 @@ FAULTS = [
     ("title", "degree = 3\ntitle", "scene.toml:1: degree = 3, expected 1 or 2"),
     # data
     ("\"-10*t\"", "\"-10*\"", "scene.toml:12: body upper: ty = \"-10*\", expected an expression in x, y, t "
-                              "(unexpected end"),
+                              "(it ends where a value is expected, at character 5)"),
     ("\"-10*t\"", "\"-10*s\"", "scene.toml:12: body upper: ty = \"-10*s\", expected an expression in x, y, t "
-                               "(unexpected token \"s\""),
+                               "(unknown name s, at character 5)"),
     ("\"-10*t\"", "\"1/t\"", "scene.toml:12: body upper: ty = \"1/t\", expected a finite number, "
                              "is inf at x = "),
     ("\"-10*t\"", "inf", "scene.toml:12: body upper: ty = inf, expected a finite number, an expression in x, "

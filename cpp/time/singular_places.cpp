@@ -1,0 +1,268 @@
+#include "time/singular_places.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+constexpr double nextTo = 1.5;  // edges
+
+/// kappa of a material, from what it makes of stresses; in space that of plane strain.
+double kappaOf(const Body& body) {
+  const int components = body.material().components();
+  Matrix stress = Matrix::Zero(components, body.points());
+  Matrix strain = stress;
+  if (body.dimension() == 3) {
+    stress.topRows<6>().colwise() = fromSpaceCartesian(SpaceStress::Unit(0));
+    body.material().elasticStrain(stress, strain);
+    const SpaceStress along = toSpaceCartesian(strain.col(0).head<6>());
+    return 3 + 4 * along[1] / along[0];
+  }
+  const auto compliance = [&](int component) {
+    stress.setZero();
+    stress.row(component).setOnes();
+    body.material().elasticStrain(stress, strain);
+    return strain(component, 0);
+  };
+  const double shear = compliance(1);  // (1 + nu)/E
+  if (components > 3) return 3 - 4 * (shear / compliance(3) - 1);
+  const double all = compliance(0);  // (1 - nu)/E
+  const double poisson = (shear - all) / (shear + all);
+  return (3 - poisson) / (1 + poisson);
+}
+
+/// What the conditions of a label hold of a side. \param into  along the side, away from its corner
+SideSupport supportOf(const Body& body, int label, const SpacePoint& into, const SpacePoint& normal) {
+  bool across = false;
+  bool other = false;
+  const auto hold = [&](int component, int normals) {
+    if (component >= normals) {
+      (component == normals ? across : other) = true;
+      return;
+    }
+    const double n = std::abs(normal[component]);
+    const double t = std::abs(into[component]);
+    if (n * n + t * t > 0.5) (n > t ? across : other) = true;  // the others are along an edge in space
+  };
+  if (const SpaceElements* space = body.space()) {
+    for (const SpaceCondition& held : space->conditions().displacements)
+      if (!held.point && held.label == label) hold(held.component, spaceNormal);
+  } else {
+    for (const PrescribedDisplacement& held : body.conditions().displacements)
+      if (held.actsOn(label)) hold(held.component, alongNormal);
+  }
+  return across && other ? SideSupport::held : across || other ? SideSupport::sliding : SideSupport::free;
+}
+
+/// A vertex of the boundary in the plane, an edge of it in space: how wide the body is there, and what holds
+/// its sides.
+struct BoundaryCorner {
+  SpacePoint at{0, 0, 0};  ///< next to the place
+  double angle = 0;
+  double edge = 0;  ///< the longest of its sides, across it
+  std::vector<SideSupport> sides;
+};
+
+/// The point of a vertex or an edge next to a place.
+template <size_t count>
+SpacePoint nearestOf(const Body& body, const std::array<int, count>& corner, const SpacePoint& place) {
+  const SpacePoint a = body.placeOfNode(corner.front());
+  const SpacePoint e = body.placeOfNode(corner.back()) - a;
+  if (count == 1) return a;
+  return a + std::clamp(e.dot(place - a) / e.squaredNorm(), 0.0, 1.0) * e;
+}
+
+/// From a vertex or an edge to another vertex, across it.
+template <size_t count>
+SpacePoint awayFrom(const Body& body, const std::array<int, count>& corner, int vertex) {
+  const SpacePoint a = body.placeOfNode(corner.front());
+  const SpacePoint e = body.placeOfNode(corner.back()) - a;
+  const SpacePoint x = body.placeOfNode(vertex) - a;
+  return count == 1 ? x : SpacePoint(x - e.dot(x) / e.squaredNorm() * e);
+}
+
+/// A simplex without some of its vertices, ascending.
+template <size_t left, size_t count>
+std::array<int, left> without(const std::array<int, count>& simplex, size_t i, size_t j) {
+  std::array<int, left> rest{};
+  for (size_t k = 0, to = 0; k < count; ++k)
+    if (k != i && k != j) rest[to++] = simplex[k];
+  std::sort(rest.begin(), rest.end());
+  return rest;
+}
+
+/// The boundary: edges or triangles and their labels.
+template <size_t count>
+struct Sides {
+  std::vector<std::array<int, count>> facets;
+  std::vector<int> labels;  ///< -1 where a triangle has none
+};
+Sides<2> sidesOf(const TriangleMesh& mesh) {
+  return {mesh.boundaryEdges, mesh.boundaryLabels};
+}
+Sides<3> sidesOf(const TetrahedronMesh& mesh) {
+  Sides<3> sides{outerTriangles(mesh), {}};
+  std::map<std::array<int, 3>, int> labels;
+  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
+    labels[without<3>(mesh.boundaryTriangles[i], 3, 3)] = mesh.boundaryLabels[i];
+  for (const auto& facet : sides.facets) {
+    const auto found = labels.find(without<3>(facet, 3, 3));
+    sides.labels.push_back(found == labels.end() ? -1 : found->second);
+  }
+  return sides;
+}
+
+/// Calls visit(corner, facet, vertex of it that is not on the corner) of all corners of a facet.
+template <size_t count, class Visit>
+void forEachCorner(const std::array<int, count>& facet, const Visit& visit) {
+  for (size_t k = 0; k < count; ++k) visit(without<count - 1>(facet, k, k), facet[k]);
+}
+
+/// Whether a corner is next to a place, seen from a side of it.
+template <size_t count>
+bool isNextTo(const Body& body, const std::array<int, count>& corner, int vertex, const SpacePoint& place) {
+  return (nearestOf(body, corner, place) - place).norm() < nextTo * awayFrom(body, corner, vertex).norm();
+}
+
+/// Corners near a place.
+template <size_t count>
+std::vector<BoundaryCorner> cornersNear(const Body& body, const Sides<count>& sides,
+                                        const std::vector<std::array<int, count + 1>>& elements,
+                                        const SpacePoint& place) {
+  using Vertices = std::array<int, count - 1>;
+  std::map<Vertices, BoundaryCorner> corners;
+  for (const auto& facet : sides.facets)
+    forEachCorner(facet, [&](const Vertices& corner, int vertex) {
+      if (isNextTo(body, corner, vertex, place)) corners[corner].at = nearestOf(body, corner, place);
+    });
+  for (size_t i = 0; i < sides.facets.size(); ++i)
+    forEachCorner(sides.facets[i], [&](const Vertices& corner, int vertex) {
+      const auto found = corners.find(corner);
+      if (found == corners.end()) return;
+      const SpacePoint into = awayFrom(body, corner, vertex);
+      SpacePoint along(0, 0, 1);
+      if (count == 3)
+        along = (body.placeOfNode(corner.back()) - body.placeOfNode(corner.front())).normalized();
+      const SpacePoint t = into.normalized();
+      found->second.edge = std::max(found->second.edge, into.norm());
+      found->second.sides.push_back(supportOf(body, sides.labels[i], t, along.cross(t)));
+    });
+  for (const auto& element : elements)
+    for (size_t i = 0; i <= count; ++i)
+      for (size_t j = i + 1; j <= count; ++j) {
+        const auto rest = without<count - 1>(element, i, j);
+        const auto found = corners.find(rest);
+        if (found == corners.end()) continue;
+        const SpacePoint a = awayFrom(body, rest, element[i]);
+        const SpacePoint b = awayFrom(body, rest, element[j]);
+        found->second.angle += std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0));
+      }
+  std::vector<BoundaryCorner> found;
+  for (auto& [vertices, corner] : corners) found.push_back(std::move(corner));
+  return found;
+}
+
+/// Whether the stress grows towards a corner: its mean square within two edges over that within four.
+bool growsTowards(const Body& body, const Matrix& stress, const BoundaryCorner& corner) {
+  constexpr double grows = 1.1;
+  std::array<double, 2> square{};
+  std::array<double, 2> size{};
+  for (int i = 0; i < body.points(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      if (!((body.placeOfPoint(i) - corner.at).norm() < 2 * (k + 1) * corner.edge)) continue;
+      square[k] += body.weights()[i] * stress.col(i).squaredNorm();
+      size[k] += body.weights()[i];
+    }
+  return size[0] > 0 && square[0] / size[0] > grows * square[1] / size[1];
+}
+
+/// The border of a label of a body: corners that one of its facets has alone, and how far that reaches.
+template <size_t count>
+struct Border {
+  std::vector<std::pair<std::array<int, count - 1>, int>> corners;  ///< and the vertex opposite
+};
+template <size_t count>
+Border<count> borderOf(const Sides<count>& sides, int label) {
+  std::map<std::array<int, count - 1>, std::vector<int>> facets;
+  for (size_t i = 0; i < sides.facets.size(); ++i)
+    if (sides.labels[i] == label)
+      forEachCorner(sides.facets[i],
+                    [&](const auto& corner, int vertex) { facets[corner].push_back(vertex); });
+  Border<count> border;
+  for (const auto& [corner, vertices] : facets)
+    if (vertices.size() == 1) border.corners.emplace_back(corner, vertices.front());
+  return border;
+}
+
+/// Whether the border of one of two sides passes next to a place, where that of the other one does not.
+template <size_t count>
+bool endsAt(const std::array<const Body*, 2>& bodies, const std::array<Border<count>, 2>& borders,
+            const SpacePoint& place, double reach) {
+  for (size_t side = 0; side < 2; ++side)
+    for (const auto& [corner, vertex] : borders[side].corners) {
+      const Body& body = *bodies[side];
+      const SpacePoint at = nearestOf(body, corner, place);
+      if (!isNextTo(body, corner, vertex, place) && !((at - place).norm() < reach)) continue;
+      const double edge = awayFrom(body, corner, vertex).norm();
+      const auto& other = borders[1 - side].corners;
+      if (std::none_of(other.begin(), other.end(), [&](const auto& each) {
+            return (nearestOf(*bodies[1 - side], each.first, at) - at).norm() <= edge / 2;
+          }))
+        return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+bool isSingular(double angle, SideSupport first, SideSupport second, double kappa) {
+  constexpr double degree = M_PI / 180;
+  constexpr double turn = 25 * degree;  // corners of a polygon that stands for a curve have less
+  constexpr double reentrant = M_PI + turn;
+  if (first == SideSupport::sliding && second == first && std::abs(angle - M_PI) <= turn) return false;
+  if (first == second && first != SideSupport::sliding) return angle > reentrant;
+  if (first == SideSupport::sliding || second == SideSupport::sliding) return 2 * angle > reentrant;
+  return angle > std::asin(std::sqrt(std::min(1.0, (kappa + 1) / 4))) + 10 * degree;
+}
+
+bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place) {
+  if (body.rigid()) return false;
+  const SpaceElements* space = body.space();
+  const std::vector<BoundaryCorner> corners =
+      space != nullptr ? cornersNear(body, sidesOf(space->mesh()), space->mesh().tetrahedra, place)
+                       : cornersNear(body, sidesOf(body.mesh()), body.mesh().triangles, place);
+  return std::any_of(corners.begin(), corners.end(), [&](const BoundaryCorner& corner) {
+    return corner.sides.size() == 2 &&
+           isSingular(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body)) &&
+           growsTowards(body, stress, corner);
+  });
+}
+
+bool contactEndsAt(const Model& model, const State& state, const SpacePoint& place, double reach) {
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    if (!(state.contactForce[k].maxCoeff() > 0)) continue;
+    const ContactPair& pair = model.interfaces[k].pair();
+    const std::array<const Body*, 2> bodies{&model.bodies[pair.nonmortar.body],
+                                            &model.bodies[pair.mortar.body]};
+    const std::array<int, 2> labels{pair.nonmortar.label, pair.mortar.label};
+    const auto ends = [&](const auto& first, const auto& second) {
+      return endsAt(bodies, std::array{borderOf(first, labels[0]), borderOf(second, labels[1])}, place,
+                    reach);
+    };
+    if (model.interfaces[k].dimension() == 3
+            ? ends(sidesOf(bodies[0]->space()->mesh()), sidesOf(bodies[1]->space()->mesh()))
+            : ends(sidesOf(bodies[0]->mesh()), sidesOf(bodies[1]->mesh())))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace mortier
