@@ -1,12 +1,10 @@
 #include "time/quantity_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "fem/data_misfit.h"
-#include "mesh/boundary_line.h"
 #include "time/curve_error.h"
 #include "time/largest_error.h"
 #include "time/march.h"
@@ -34,23 +32,30 @@ struct Goal {
   bool betweenBodies = false;  ///< whether contact does not follow them
 };
 
-/// Middles of sides whose ends have rows go with these where row functions are linear.
-void moveMiddles(const Body& body, int label, Vector& motion) {
+/// A motion of the nonmortar nodes along the normals by values of rows. Nodes without a row move as the rows
+/// that they act on.
+Vector motionOfRows(const ContactInterface& interface, const Body& body, const Vector& values) {
   const int dimension = body.dimension();
-  const auto add = [&](int middle, int a, int b) {
-    const auto at = [&](int node) { return motion.segment(Eigen::Index{dimension} * node, dimension); };
-    at(middle) = (at(a) + at(b)) / 2;
+  Vector motion = Vector::Zero(body.dofs());
+  Vector weights = Vector::Zero(body.nodes());
+  std::vector<char> own(static_cast<size_t>(body.nodes()), 0);
+  const auto move = [&](int node, int row, double weight) {
+    motion.segment(Eigen::Index{dimension} * node, dimension) +=
+        weight * values[row] * normalAt(interface, row).head(dimension);
   };
-  if (const SpaceElements* space = body.space()) {
-    const std::vector<std::array<int, 6>>& faces = space->nodes().faces;
-    for (size_t i = 0; i < faces.size(); ++i)
-      for (int k = 0; k < 3 && space->mesh().boundaryLabels[i] == label; ++k)
-        add(faces[i][3 + k], faces[i][k], faces[i][(k + 1) % 3]);
-  } else {
-    const BoundaryLine line = boundaryLine(body.mesh(), body.elementNodes(), label);
-    for (size_t i = 0; i < line.middleNodes.size(); ++i)
-      add(line.middleNodes[i], line.nodes[i], line.nodes[i + 1]);
+  for (int row = 0; row < interface.rows(); ++row) {
+    own[interface.nonmortarNodes()[row]] = 1;
+    move(interface.nonmortarNodes()[row], row, 1);
   }
+  for (int row = 0; row < interface.rows(); ++row)
+    for (ConstraintRows::InnerIterator entry(interface.C1(), row); entry; ++entry)
+      if (const int node = static_cast<int>(entry.col()) / dimension; own[node] == 0) {
+        weights[node] += std::abs(entry.value());
+        move(node, row, std::abs(entry.value()));
+      }
+  for (int node = 0; node < body.nodes(); ++node)
+    if (weights[node] > 0) motion.segment(Eigen::Index{dimension} * node, dimension) /= weights[node];
+  return motion;
 }
 
 /// The linear problem in which contact stays as it is.
@@ -98,6 +103,20 @@ class Adjoint {
     return z;
   }
 
+  /// What rounding makes of a quantity: of the sum of stresses on its motions, and of displacements.
+  [[nodiscard]] double roundingOf(const Goal& goal) const {
+    double sum = 0;
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      const Matrix strain = strainOf(b, goal.motion[b]);
+      const Matrix& stress = state_.bodies[b].stress;
+      for (int i = 0; i < model_.bodies[b].points(); ++i)
+        sum += model_.bodies[b].weights()[i] * stress.col(i).cwiseAbs().dot(strain.col(i).cwiseAbs());
+      if (const Vector& u = state_.bodies[b].displacement; u.size() > 0)
+        sum += goal.force[b].lpNorm<1>() * u.lpNorm<Eigen::Infinity>();
+    }
+    return roundingOfSums * sum;
+  }
+
   /// Forces at the nodes that are the change of the elastic energy of a body with its displacement.
   [[nodiscard]] Vector forceOfEnergy(size_t b) const {
     const Body& body = model_.bodies[b];
@@ -117,15 +136,12 @@ class Adjoint {
       const ContactInterface& interface = model_.interfaces[k];
       if (!interface.hasFriction()) continue;
       const auto& [nonmortar, mortar, coupling] = interface.pair();
-      const Body& body = model_.bodies[nonmortar.body];
       Vector& moved = z[nonmortar.body].displacement;
       const Vector slip = interface.slip(moved, z[mortar.body].displacement);
-      Vector closing = Vector::Zero(moved.size());
+      Vector closing = Vector::Zero(slip.size());
       for (int row = 0; row < interface.rows(); ++row)
-        closing.segment<2>(Eigen::Index{2} * interface.nonmortarNodes()[row]) +=
-            state_.slipping[k][row] * interface.friction().coefficient * slip[row] * interface.normals()[row];
-      if (body.degree() == 2 && rowDegree(coupling, 2) == 1) moveMiddles(body, nonmortar.label, closing);
-      moved += closing;
+        closing[row] = state_.slipping[k][row] * interface.friction().coefficient * slip[row];
+      moved += motionOfRows(interface, model_.bodies[nonmortar.body], closing);
     }
   }
   [[nodiscard]] Matrix strainOf(size_t b, const Vector& u) const {
@@ -154,24 +170,6 @@ class Adjoint {
   std::string obstacle_;
 };
 
-/// Of the forces of contact on a part of a side: a motion of its nonmortar nodes along the normals.
-Vector meanPressureMotion(const Quantity& quantity, const Model& model, int body) {
-  const Body& own = model.bodies[body];
-  const int dimension = own.dimension();
-  Vector motion = Vector::Zero(own.dofs());
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactInterface& interface = model.interfaces[k];
-    const ContactSide& side = interface.pair().nonmortar;
-    if (side.body != body || quantity.shares[k].isZero(0)) continue;
-    for (int row = 0; row < interface.rows(); ++row)
-      motion.segment(Eigen::Index{dimension} * interface.nonmortarNodes()[row], dimension) +=
-          quantity.shares[k][row] * normalAt(interface, row).head(dimension);
-    if (own.degree() == 2 && rowDegree(interface.pair().coupling, 2) == 1)
-      moveMiddles(own, side.label, motion);
-  }
-  return motion;
-}
-
 Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint) {
   Goal goal;
   for (const Body& body : model.bodies) goal.motion.emplace_back(Vector::Zero(body.dofs()));
@@ -188,8 +186,9 @@ Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint
       goal.moves = true;
       return goal;
     case Kind::meanPressure:
-      for (size_t b = 0; b < model.bodies.size(); ++b)
-        goal.motion[b] = meanPressureMotion(quantity, model, static_cast<int>(b));
+      for (size_t k = 0; k < model.interfaces.size(); ++k)
+        if (const int b = model.interfaces[k].pair().nonmortar.body; !quantity.shares[k].isZero(0))
+          goal.motion[b] += motionOfRows(model.interfaces[k], model.bodies[b], quantity.shares[k]);
       goal.moves = goal.betweenBodies = true;
       return goal;
     case Kind::displacement:
@@ -326,7 +325,7 @@ QuantityError errorOfLinear(const Quantity& quantity, const Model& model, const 
   if (quantity.kind == Kind::meanPressure) beside += growthOfMean(quantity, model, error.state());
   const double uncertain = std::abs(sum) > cancelled * absolute ? uncertainPart * absolute : 0;
   const double ofStress = (std::abs(sum) + uncertain) * beyondRecovered(*estimates);
-  of.size = factorOfSafety * (ofStress + std::abs(beside));
+  of.size = factorOfSafety * (ofStress + std::abs(beside) + adjoint.roundingOf(goal));
   return of;
 }
 

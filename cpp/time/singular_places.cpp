@@ -202,19 +202,55 @@ Border<count> borderOf(const Sides<count>& sides, int label) {
   return border;
 }
 
-/// Whether the border of one of two sides passes next to a place, where that of the other one does not.
+/// The mesh of a body, as plane and space have it.
 template <size_t count>
-bool endsAt(const std::array<const Body*, 2>& bodies, const std::array<Border<count>, 2>& borders,
-            const SpacePoint& place, double reach) {
-  for (size_t side = 0; side < 2; ++side)
-    for (const auto& [corner, vertex] : borders[side].corners) {
-      const Body& body = *bodies[side];
+const auto& meshOf(const Body& body) {
+  if constexpr (count == 3)
+    return body.space()->mesh();
+  else
+    return body.mesh();
+}
+template <size_t count>
+std::vector<BoundaryCorner> cornersNear(const Body& body, const SpacePoint& place) {
+  const auto& mesh = meshOf<count>(body);
+  if constexpr (count == 3)
+    return cornersNear(body, sidesOf(mesh), mesh.tetrahedra, place);
+  else
+    return cornersNear(body, sidesOf(mesh), mesh.triangles, place);
+}
+
+/// Whether the stress of a body grows towards a place of its boundary.
+template <size_t count>
+bool growsTowards(const Body& body, const Matrix& stress, const SpacePoint& place) {
+  if (body.rigid()) return false;
+  BoundaryCorner end;
+  end.at = place;
+  for (const BoundaryCorner& near : cornersNear<count>(body, place)) end.edge = std::max(end.edge, near.edge);
+  return end.edge > 0 && growsTowards(body, stress, end);
+}
+
+/// Whether the border of one of two sides passes next to a place, where that of the other one does not, and
+/// the stress of one of the bodies grows towards it.
+template <size_t count>
+bool endsAt(const ContactPair& pair, const Model& model, const State& state, const SpacePoint& place,
+            double reach) {
+  const std::array<ContactSide, 2> sides{pair.nonmortar, pair.mortar};
+  std::array<Border<count>, 2> borders;
+  for (size_t i = 0; i < 2; ++i)
+    borders[i] = borderOf(sidesOf(meshOf<count>(model.bodies[sides[i].body])), sides[i].label);
+  for (size_t i = 0; i < 2; ++i)
+    for (const auto& [corner, vertex] : borders[i].corners) {
+      const Body& body = model.bodies[sides[i].body];
       const SpacePoint at = nearestOf(body, corner, place);
       if (!isNextTo(body, corner, vertex, place) && !((at - place).norm() < reach)) continue;
       const double edge = awayFrom(body, corner, vertex).norm();
-      const auto& other = borders[1 - side].corners;
-      if (std::none_of(other.begin(), other.end(), [&](const auto& each) {
-            return (nearestOf(*bodies[1 - side], each.first, at) - at).norm() <= edge / 2;
+      const auto& other = borders[1 - i].corners;
+      if (std::any_of(other.begin(), other.end(), [&](const auto& each) {
+            return (nearestOf(model.bodies[sides[1 - i].body], each.first, at) - at).norm() <= edge / 2;
+          }))
+        continue;
+      if (std::any_of(sides.begin(), sides.end(), [&](const ContactSide& side) {
+            return growsTowards<count>(model.bodies[side.body], state.bodies[side.body].stress, at);
           }))
         return true;
     }
@@ -235,10 +271,8 @@ bool isSingular(double angle, SideSupport first, SideSupport second, double kapp
 
 bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place) {
   if (body.rigid()) return false;
-  const SpaceElements* space = body.space();
   const std::vector<BoundaryCorner> corners =
-      space != nullptr ? cornersNear(body, sidesOf(space->mesh()), space->mesh().tetrahedra, place)
-                       : cornersNear(body, sidesOf(body.mesh()), body.mesh().triangles, place);
+      body.dimension() == 3 ? cornersNear<3>(body, place) : cornersNear<2>(body, place);
   return std::any_of(corners.begin(), corners.end(), [&](const BoundaryCorner& corner) {
     return corner.sides.size() == 2 &&
            isSingular(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body)) &&
@@ -250,16 +284,8 @@ bool contactEndsAt(const Model& model, const State& state, const SpacePoint& pla
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     if (!(state.contactForce[k].maxCoeff() > 0)) continue;
     const ContactPair& pair = model.interfaces[k].pair();
-    const std::array<const Body*, 2> bodies{&model.bodies[pair.nonmortar.body],
-                                            &model.bodies[pair.mortar.body]};
-    const std::array<int, 2> labels{pair.nonmortar.label, pair.mortar.label};
-    const auto ends = [&](const auto& first, const auto& second) {
-      return endsAt(bodies, std::array{borderOf(first, labels[0]), borderOf(second, labels[1])}, place,
-                    reach);
-    };
-    if (model.interfaces[k].dimension() == 3
-            ? ends(sidesOf(bodies[0]->space()->mesh()), sidesOf(bodies[1]->space()->mesh()))
-            : ends(sidesOf(bodies[0]->mesh()), sidesOf(bodies[1]->mesh())))
+    if (model.interfaces[k].dimension() == 3 ? endsAt<3>(pair, model, state, place, reach)
+                                             : endsAt<2>(pair, model, state, place, reach))
       return true;
   }
   return false;
