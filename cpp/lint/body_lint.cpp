@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 
 #include "base/digits.h"
 #include "base/formatted.h"
@@ -75,19 +74,6 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   return result;
 }
 
-/// Whether both are the same triangles: those of one file, and no region apart.
-bool sameMesh(const MeshSource& one, const MeshSource& two) {
-  std::error_code ignored;
-  if (!std::filesystem::equivalent(one.path, two.path, ignored)) return false;
-  const auto in = [](const std::string& region, const MeshSource& source) {
-    return source.regions.empty() ||
-           std::find(source.regions.begin(), source.regions.end(), region) != source.regions.end();
-  };
-  return one.regions.empty() || two.regions.empty() ||
-         std::any_of(one.regions.begin(), one.regions.end(),
-                     [&](const auto& region) { return in(region, two); });
-}
-
 void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const BodyDescription& one = input.scene.bodies[i];
   const BodyDescription& two = input.scene.bodies[j];
@@ -107,10 +93,6 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
     faults.add("stiffness-ratio", input.where({"body", "material", "young"}, young < 1 ? i : j),
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);
-  if (sameMesh(one.mesh, two.mesh)) {
-    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file, in one place");
-    return;
-  }
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
   double meant = 0;
   for (size_t k = 0; k < input.interference.size(); ++k)

@@ -139,9 +139,6 @@ void compareMeshes(const LintInput& input, const ContactDescription& contact, co
   constexpr double softer = 2;
   const double h1 = one.length / one.edges;
   const double h2 = two.length / two.edges;
-  for (const Side* side : {&one, &two})
-    if (side->edges == 1)
-      faults.add("contact-one-edge", side->description->where, name(*side) + " is one edge");
   const double ratio = h1 / h2;
   if (std::max(ratio, 1 / ratio) > different)
     faults.add("contact-size-ratio", contact.where,

@@ -47,11 +47,6 @@ const std::vector<FaultKind>& faultKinds() {
       {"sliver", warning, "triangles or tetrahedra are very flat", "mesh again with a lower bound on angles"},
       {"mesh-changed", warning, "cells of a file are cut, or lose the nodes on their edges",
        "write linear triangles or tetrahedra, with degree = 2 for quadratic displacements, or allow it"},
-      {"size-jump", warning, "neighbouring triangles differ very much in size",
-       "grade the mesh over several layers of triangles"},
-      {"mesh-coarse", warning, "a mesh has a handful of triangles", "refine the mesh"},
-      {"far-from-origin", warning, "coordinates are huge against the extent of the mesh",
-       "move the mesh to the origin"},
       // Labels.
       {"missing-point", error, "the scene holds a point that is no vertex of the mesh",
        "take the place of a vertex, or put one there (a Point of a geometry is one)"},
@@ -65,8 +60,6 @@ const std::vector<FaultKind>& faultKinds() {
       {"unused-label", warning,
        "edges go on straight from those of a label, and the scene says nothing of them",
        "add a condition for them, give them their neighbours' label, or allow it if they are free"},
-      {"stray-label", warning, "one or two edges have a label of which the scene says nothing",
-       "give them their neighbours' label"},
       {"locked-triangle", warning, "triangles have every corner held",
        "swap the diagonal in the corner, or refine it"},
       {"regions-unused", warning, "a mesh has regions, the body one material for all of them",
@@ -76,7 +69,6 @@ const std::vector<FaultKind>& faultKinds() {
        "check the units of the meshes, e.g. mm against m"},
       {"stiffness-ratio", warning, "bodies differ by hundreds of times in stiffness",
        "check the units of young, e.g. MPa against Pa"},
-      {"same-mesh", warning, "two bodies have the same mesh", "give one of them its own mesh"},
       {"bodies-overlap", warning, "bodies penetrate each other",
        "move one of the meshes; contact takes its labelled lines only"},
       {"contact-missing", warning, "bodies touch, and the scene has no contact between them",
@@ -114,7 +106,6 @@ const std::vector<FaultKind>& faultKinds() {
        "hold a point of it (body.point), or give its contact friction; loads that turn it are not balanced"},
       {"contact-side-twice", warning, "a label is a side of two contacts",
        "give each contact its own part of the boundary"},
-      {"contact-one-edge", warning, "a side of a contact is one edge long", "refine the mesh there"},
       {"contact-size-ratio", warning, "the meshes of the sides differ more than ten times",
        "refine the coarse side: it decides the error"},
       {"nonmortar-coarser", warning, "the nonmortar side is much the coarser one",
@@ -157,8 +148,6 @@ const std::vector<FaultKind>& faultKinds() {
       {"viscosity-small", warning, "step over relaxation time exceeds 1e13: rounding",
        "check the units of viscosity, or of the references of the creep; a larger one gives the same "
        "stresses"},
-      {"lands-on-yield", warning, "a step ends exactly on first yield, with interpolation",
-       "change steps by one: triangles on the yield surface are the hardest to solve"},
       {"scheme-rings", warning, "crank-nicolson with steps longer than the relaxation time",
        "take scheme = \"sdirk2\", which is of second order too"},
       // Loads.
@@ -181,16 +170,10 @@ const std::vector<FaultKind>& faultKinds() {
       {"datum-between-nodes", warning,
        "a displacement or a distance varies between the nodes, at which alone it is taken",
        "refine the mesh there, or ask for [accuracy] energy"},
-      {"kink-after-end", warning, "an expression changes its law after the end of the run",
-       "check end, or simplify the expression"},
-      {"constant-loads", warning, "many steps, and nothing that depends on time", "take steps = 1"},
       // Options.
-      {"output-every", warning, "output.every is larger than the number of steps", "lower every"},
       {"output-large", warning, "the output takes gigabytes", "raise output.every"},
       {"tolerance-loose", warning, "solver.tolerance is so large that results show it",
        "leave it out: a converged step costs no more"},
-      {"tolerance-tight", warning, "solver.tolerance is below rounding", "leave it out"},
-      {"iterations-few", warning, "solver.max_iterations is small", "leave it out"},
   };
   return kinds;
 }

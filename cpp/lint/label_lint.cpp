@@ -145,17 +145,6 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
                  body + name(edge.label) + " goes on straight from " +
                      name(begins ? before->label : after->label) + ", and the scene says nothing of it");
   }
-  std::map<int, size_t> edges;
-  for (const BoundaryEdge& edge : topology.boundary) ++edges[edge.label];
-  constexpr size_t stray = 2;
-  constexpr size_t many = 10;
-  for (const auto& [label, number] : edges)
-    if (label != noLabel && !used(label) && !named[label] && number <= stray &&
-        topology.boundary.size() >= many * number * edges.size())
-      faults.add("stray-label", mesh.name + ": label " + std::to_string(label),
-                 body + labelText(mesh, label) + " is on " + std::to_string(number) + " of " +
-                     std::to_string(topology.boundary.size()) +
-                     " boundary edges, and the scene says nothing of it");
 }
 
 /// Linear triangles whose every corner is held have no strain but the prescribed one.

@@ -82,24 +82,19 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
   constexpr double onStep = 1e-6;
   constexpr size_t longest = 120;
   const TimePlan& time = input.scene.time;
+  if (time.controlled()) return;
   const double step = time.end / time.steps;
   const std::vector<double>& breaks = datum.value->breaks;
   const std::string subject =
       (breaks.empty() ? "\"" + printable(datum.value->text, longest) + "\"" : std::string("the table")) +
       " changes at t = ";
-  std::vector<double> late;
   std::vector<double> between;
   const Formulas* formula = datum.value->formula.get();
   for (const double kink : formula != nullptr ? kinksInTime(*formula) : breaks) {
-    if (kink <= 0) continue;
-    if (kink > time.end * (1 + onStep))
-      late.push_back(kink);
-    else if (!time.controlled() && std::abs(kink / step - std::round(kink / step)) > onStep)
+    if (kink > 0 && kink <= time.end * (1 + onStep) &&
+        std::abs(kink / step - std::round(kink / step)) > onStep)
       between.push_back(kink);
   }
-  if (!late.empty())
-    faults.add("kink-after-end", placeOf(*datum.value),
-               subject + firstOf(late) + ", the run ends at " + shortest(time.end));
   if (!between.empty())
     faults.add("kink-between-steps", placeOf(*datum.value),
                subject + firstOf(between) + ", within a step: steps are " + shortest(step) + " " +
@@ -110,16 +105,13 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
 
 void lintLoads(const LintInput& input, Faults& faults) {
   const std::vector<SampledDatum> data = sampledData(input);
-  const TimePlan& time = input.scene.time;
   bool any = false;
-  bool changes = false;
   bool complete = true;
   for (const SampledDatum& datum : data) {
     checkDatum(input, datum, faults);
     checkKinks(input, datum, faults);
-    const bool moves = changesInTime(datum, time);
-    changes = changes || moves;
-    any = any || moves || (datum.kind != Kind::distance && datum.largest(0) > 0);
+    any = any || changesInTime(datum, input.scene.time) ||
+          (datum.kind != Kind::distance && datum.largest(0) > 0);
   }
   for (size_t b = 0; b < input.meshes.size(); ++b) {
     complete = complete && input.meshes[b] != nullptr;
@@ -140,40 +132,21 @@ void lintLoads(const LintInput& input, Faults& faults) {
           std::any_of(body.regions.begin(), body.regions.end(),
                       [&](const RegionDescription& region) { return given(region.initialStress); });
   }
-  if (!any) {
+  if (!any)
     faults.add(
         "no-load", input.where({"body"}),
         "no traction, body force, prescribed displacement, temperature, interference or initial stress is "
         "other than 0");
-    return;
-  }
-  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), mayFlow);
-  if (elastic && !changes && !time.controlled() && time.steps > 1)
-    faults.add("constant-loads", input.where({"time", "steps"}),
-               "nothing depends on time: of " + std::to_string(time.steps) + " steps the first one says all");
 }
 
 void lintTime(const LintInput& input, Faults& faults) {
   constexpr double loose = 1e-6;
-  constexpr double tight = 1e-13;
-  constexpr int few = 20;
   constexpr double large = 4e9;  // bytes
   const SceneDescription& scene = input.scene;
   const bool equalSteps = !scene.time.controlled();
-  if (equalSteps && scene.every > scene.time.steps)
-    faults.add("output-every", input.where({"output", "every"}),
-               "every = " + std::to_string(scene.every) + " with " + counted(scene.time.steps, "step") +
-                   " keeps the first and the last state only");
   if (scene.solver.tolerance > loose)
     faults.add("tolerance-loose", input.where({"solver", "tolerance"}),
                "tolerance = " + shortest(scene.solver.tolerance) + " shows in the results");
-  if (scene.solver.tolerance < tight)
-    faults.add("tolerance-tight", input.where({"solver", "tolerance"}),
-               "tolerance = " + shortest(scene.solver.tolerance) + " is below the rounding of the residual");
-  if (scene.solver.maxIterations < few)
-    faults.add("iterations-few", input.where({"solver", "max_iterations"}),
-               "max_iterations = " + std::to_string(scene.solver.maxIterations) +
-                   ", a step in which bodies yield may need more");
   // Numbers that a node and a triangle have in a file of fields; by Euler's formula a mesh has about as many
   // edges, each with a node of quadratic displacements, as vertices and triangles together.
   constexpr double ofNode = 6;

@@ -86,7 +86,7 @@ std::optional<Viscoplasticity> beyondYield(const MaterialDescription& material) 
 
 /// Equal steps, and how far each goes beside the yield stress and the time of relaxation.
 void checkSteps(const LintInput& input, const PlacedMaterial& material, const Viscoplasticity& flow,
-                double largest, double afterFirstStep, double firstYield, Faults& faults) {
+                double largest, double afterFirstStep, Faults& faults) {
   constexpr double far = 3;
   constexpr double tooStiff = 1e13;
   const TimePlan& time = input.scene.time;
@@ -109,18 +109,10 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, const Vi
                subject + "backward-euler is of first order, " + counted(time.steps, "step") +
                    " across yield " + (time.steps == 1 ? "leaves" : "leave") + " an error of about " +
                    shortest(std::round(100.0 / time.steps)) + " %");
-  const bool hard =
-      std::any_of(input.scene.contacts.begin(), input.scene.contacts.end(),
-                  [](const ContactDescription& c) { return c.variant == CouplingKind::interpolation; });
-  constexpr double lands = 1e-9;
-  if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
-    faults.add("lands-on-yield", input.where({"time", "steps"}),
-               subject + "a step ends at t = " + digits(firstYield, 4) + " " + input.scene.units.time +
-                   ", where the traction reaches the yield stress");
 }
 
 void checkFlow(const LintInput& input, const PlacedMaterial& material, const Viscoplasticity& flow,
-               double largest, double afterFirstStep, double firstYield, Faults& faults) {
+               double largest, double afterFirstStep, Faults& faults) {
   constexpr double unreachable = 20;
   constexpr double frozen = 1e-3;
   constexpr double plastic = 0.1;
@@ -148,7 +140,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, const Vis
                subject + "relaxes in 2 viscosity/E = " + digits(relaxation, 4) + unit + ", the run ends at " +
                    shortest(time.end) + unit + ": nothing has time to flow");
   if (!time.controlled() && flow.viscosity > 0)
-    checkSteps(input, material, flow, largest, afterFirstStep, firstYield, faults);
+    checkSteps(input, material, flow, largest, afterFirstStep, faults);
 }
 
 /// The creep that the loads make, in all and in a step, beside the elastic strain.
@@ -182,31 +174,6 @@ void checkRelaxation(const LintInput& input, const PlacedMaterial& material,
                material.subject + "relaxation_time = " + shortest(viscoelasticity.relaxationTime) + unit +
                    ", the run ends at " + shortest(input.scene.time.end) + unit +
                    ": nothing has time to flow");
-}
-
-/// The first time at which the largest traction reaches the yield stress; 0 where it does not.
-double yieldTime(const std::vector<SampledDatum>& data, const TimePlan& plan, double yieldStress) {
-  const auto traction = [&](double t) {
-    double result = 0;
-    for (const SampledDatum& datum : data)
-      if (datum.kind == SampledDatum::Kind::traction) result = std::max(result, datum.largest(t));
-    return result;
-  };
-  double before = 0;
-  for (const double t : trialTimes(plan)) {
-    if (traction(t) < yieldStress) {
-      before = t;
-      continue;
-    }
-    if (t == 0) return 0;
-    double after = t;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (before + after) / 2;
-      (traction(middle) < yieldStress ? before : after) = middle;
-    }
-    return after;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -244,8 +211,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       }
       const std::optional<Viscoplasticity> flow = beyondYield(material.description);
       if (!flow) continue;
-      const double firstYield = yieldTime(data, time, flow->yieldStress);
-      checkFlow(input, material, *flow, largest, afterFirstStep, firstYield, faults);
+      checkFlow(input, material, *flow, largest, afterFirstStep, faults);
       if (flow->viscosity == 0) continue;
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
                                         relaxingModulus(material.description.elasticity, input.scene.plane));

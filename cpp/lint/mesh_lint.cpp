@@ -179,39 +179,6 @@ void findSlivers(const Mesh& mesh, size_t elements, const std::string& word, con
                    ": 1), this one has " + shortest(std::round(worst)));
 }
 
-void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool refined, Faults& faults) {
-  constexpr double jump = 64;  // of the area between neighbours
-  constexpr size_t few = 8;
-  findSlivers(mesh, mesh.triangles.size(), "triangle", "equilateral", faults);
-  size_t jumps = 0;
-  double worst = jump;
-  int where = 0;
-  for (const auto& [a, b] : topology.neighbours) {
-    const double ratio = doubleArea(mesh, a) / doubleArea(mesh, b);
-    jumps += std::max(ratio, 1 / ratio) > jump ? 1 : 0;
-    if (std::max(ratio, 1 / ratio) <= worst) continue;
-    worst = std::max(ratio, 1 / ratio);
-    where = ratio > 1 ? a : b;
-  }
-  if (jumps > 0)
-    faults.add("size-jump", triangle(mesh, where),
-               counted(jumps, "pair") + " of neighbours whose areas differ by more than " + shortest(jump) +
-                   " times, this one by " + shortest(std::round(worst)));
-  if (!refined && mesh.triangles.size() < few)
-    faults.add("mesh-coarse", mesh.name, counted(mesh.triangles.size(), "triangle") + " in all");
-}
-
-void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults& faults) {
-  constexpr double far = 1e5;
-  const auto box = boxOf(mesh.vertices);
-  const double distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  if (distance <= far * extent(mesh)) return;
-  faults.add("far-from-origin", mesh.name,
-             "coordinates up to " + digits(distance, 7) + " " + length + " for an extent of " +
-                 digits(extent(mesh), 4) + " " + length + ": " +
-                 shortest(std::floor(std::log10(distance / extent(mesh)))) + " of 16 digits are lost");
-}
-
 }  // namespace
 
 void lintMeshes(const LintInput& input, Faults& faults) {
@@ -225,8 +192,7 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     findDoubles(mesh, topology, tree, faults);
     findHangingNodes(mesh, topology, tree, faults);
     findCrossings(mesh, topology, tree, faults);
-    findBadTriangles(mesh, topology, refinesMeshes(input.scene), faults);
-    findLostDigits(mesh, input.scene.units.length, faults);
+    findSlivers(mesh, mesh.triangles.size(), "triangle", "equilateral", faults);
   }
 }
 

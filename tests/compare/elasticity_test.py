@@ -31,7 +31,7 @@ largest_mises = { body = "block" }
 end = 1
 steps = 1
 [check]
-allow = ["initial-load", "constant-loads"]
+allow = ["initial-load"]
 """
 
 # A quarter of a large plate with a hole, pulled along x.
@@ -47,8 +47,6 @@ energy = 1e-4
 [time]
 end = 1
 steps = 1
-[check]
-allow = ["constant-loads"]
 """.replace("WOOD", WOOD)
 
 

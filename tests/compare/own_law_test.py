@@ -38,7 +38,7 @@ steps = 5
 
 
 SOFTENING = """\
-check.allow = ["large-strain", "mesh-coarse"]
+check.allow = ["large-strain"]
 [[body]]
 name = "upper"
 mesh = { shape = "rectangle", cells = 2, lower = [0, 0], upper = [1, 1] }

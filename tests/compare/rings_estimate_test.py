@@ -23,7 +23,7 @@ boundary = [ { label = 1, uy = 0 }, { label = 3, uy = 0 } ]
 end = 1
 steps = 1
 [check]
-allow = ["constant-loads", "initial-load"]
+allow = ["initial-load"]
 """
 
 

@@ -27,7 +27,7 @@ component = "x"
 end = 1
 steps = 1
 [check]
-allow = ["constant-loads", "initial-load"]
+allow = ["initial-load"]
 """
 
 

@@ -7,12 +7,6 @@ fault("extent-ratio", "mesh = \"upper.mesh\"")(
 fault("stiffness-ratio", "scene.toml:4")(lambda case: case.replace("young = 3e11", "young = 3e8"))
 
 
-@fault("same-mesh", "scene.toml:14")
-def _(case):
-    case.replace("lower.mesh", "upper.mesh")
-    case.replace("label = 3 }", "label = 1 }")
-
-
 @fault("bodies-overlap", ".mesh: vertex")
 def _(case):
     case.scene = case.scene[:case.scene.index("[contact]")] + case.scene[case.scene.index("[time]"):]

@@ -83,11 +83,6 @@ def _(case):
                            "nonmortar = { body = \"third\", label = 3 }\n\n[time]")
 
 
-@fault("contact-one-edge", "scene.toml:24")
-def _(case):
-    case.upper = Mesh(0, 0, 1, 1, 1, 6)
-
-
 @fault("contact-size-ratio", "[contact]")
 def _(case):
     case.lower = Mesh(0, -1, 1, 0, 70, 20)

@@ -1,5 +1,5 @@
 """Labels that are missing, broken off or without use."""
-from seeded.case import Mesh, fault
+from seeded.case import fault
 
 
 fault("missing-label", "scene.toml:10")(lambda case: case.replace("label = 3\n", "label = 33\n"))
@@ -26,12 +26,6 @@ def _(case):
 
 fault("unused-label", "upper.mesh: edge from vertex")(
     lambda case: case.upper.relabel(lambda x, y, label: 8 if y == 1 and x > 0.5 else label))
-
-
-@fault("stray-label", "upper.mesh: label 8")
-def _(case):
-    case.upper = Mesh(0, 0, 1, 1, 20, 20)
-    case.upper.relabel(lambda x, y, label: 8 if x == 1 and 0.5 < y < 0.55 else label)
 
 
 @fault("locked-triangle", "lower.mesh: triangle")

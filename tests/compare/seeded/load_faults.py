@@ -17,8 +17,6 @@ def _(case):
 
 
 fault("kink-between-steps", 'ty = "')(lambda case: case.replace("-10*t", "t < 0.123 ? -10*t : -1.23"))
-fault("kink-after-end", 'ty = "')(lambda case: case.replace("-10*t", "t <= 2 ? -10*t : -20"))
-fault("constant-loads", "steps = ", ELASTIC)(lambda case: case.replace("steps = 1", "steps = 50"))
 fault("initial-stress", "scene.toml", ELASTIC)(
     lambda case: case.replace("poisson = 0.3 }", "poisson = 0.3 }\ninitial_stress = { s11 = 1 }"))
 

@@ -111,19 +111,3 @@ def _(case):
                               "".join(f"{v} {v + 1} {v + 5} {v + 4} 1\n"
                                       for v in (1, 2, 3, 5, 6, 7, 9, 10, 11)) + "End\n")
     case.scene = case.scene.replace("upper.mesh", "quads.mesh")
-
-
-@fault("size-jump", "upper.mesh: triangle")
-def _(case):
-    case.upper.vertices[case.upper.triangles[60][2] - 1][1] -= 0.083
-
-
-@fault("mesh-coarse", "lower.mesh")
-def _(case):
-    case.lower = Mesh(0, -1, 1, 0, 1, 1)
-
-
-@fault("far-from-origin", "upper.mesh")
-def _(case):
-    for mesh in (case.upper, case.lower):
-        mesh.move(lambda x, y: (x + 4194304, y))
