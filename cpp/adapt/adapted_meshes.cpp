@@ -36,14 +36,16 @@ double powerOfErrors(int degree, int dimension) {
   return 2.0 / (2 * degree + dimension);
 }
 
-/// c by halving: the sum grows with it.
+/// c by halving: the sum of the squares that sizes c times `size` leave grows with it.
 double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree, double power) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0;
+  std::vector<std::pair<double, double>> squares;  ///< and sizes
   for (const Vector& error : errors)
     for (const double square : error) {
       if (!(square > 0)) continue;
-      const double root = std::pow(std::sqrt(square), power);
+      squares.emplace_back(square, std::pow(square, -power / 2));
+      const double root = 1 / squares.back().second;
       low = std::min(low, root * leastReduction);
       high = std::max(high, root);
     }
@@ -51,11 +53,12 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree, d
     stopIfInterrupted();
     const double middle = std::sqrt(low) * std::sqrt(high);
     double sum = 0;
-    for (const Vector& error : errors)
-      for (const double square : error)
-        if (square > 0)
-          sum += square *
-                 std::pow(std::clamp(middle * std::pow(square, -power / 2), leastReduction, 1.0), 2 * degree);
+    for (const auto& [square, size] : squares) {
+      const double reduction = std::clamp(middle * size, leastReduction, 1.0);
+      double left = square;
+      for (int k = 0; k < degree; ++k) left *= reduction * reduction;
+      sum += left;
+    }
     (sum > aim * aim ? high : low) = middle;
   }
   return low;
@@ -66,23 +69,27 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree, d
 std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors) {
   constexpr double share = 0.5 - 1e-9;
   constexpr double digits = 0x1p20;
-  std::vector<std::pair<size_t, Eigen::Index>> order;
+  struct Ranked {
+    double rank;
+    size_t body;
+    Eigen::Index element;
+  };
+  std::vector<Ranked> order;
   std::vector<std::vector<char>> marked;
   double total = 0;
   for (size_t b = 0; b < errors.size(); ++b) {
     marked.emplace_back(errors[b].size(), 0);
     total += errors[b].sum();
-    for (Eigen::Index t = 0; t < errors[b].size(); ++t) order.emplace_back(b, t);
+    for (Eigen::Index t = 0; t < errors[b].size(); ++t)
+      order.push_back({std::round(digits * std::log2(errors[b][t])), b, t});
   }
-  const auto of = [&](const auto& which) { return errors[which.first][which.second]; };
-  const auto rank = [&](const auto& which) { return std::round(digits * std::log2(of(which))); };
   std::stable_sort(order.begin(), order.end(),
-                   [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
+                   [](const Ranked& a, const Ranked& b) { return a.rank > b.rank; });
   double sum = 0;
-  for (const auto& which : order) {
+  for (const auto& [rank, body, element] : order) {
     if (sum >= share * total) break;
-    sum += of(which);
-    marked[which.first][which.second] = 1;
+    sum += errors[body][element];
+    marked[body][element] = 1;
   }
   return marked;
 }

@@ -11,7 +11,13 @@ namespace mortier {
 /// Exit code 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message, std::string fault = "")
+      : std::runtime_error(message), fault_(std::move(fault)) {}
+  /// Its id in docs/check.md; empty where it has none of its own.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+ private:
+  std::string fault_;
 };
 
 /// A scene that has no (unique) solution: a body that nothing holds. The message names the free motion. Exit
@@ -32,16 +38,6 @@ class OutputError : public std::runtime_error {
 class DatumError : public InputError {
  public:
   using InputError::InputError;
-};
-
-/// A wrong input that is a fault of its own in docs/check.md.
-class FaultError : public InputError {
- public:
-  FaultError(const std::string& message, std::string id) : InputError(message), id_(std::move(id)) {}
-  [[nodiscard]] const std::string& id() const { return id_; }
-
- private:
-  std::string id_;
 };
 
 }  // namespace mortier

@@ -65,17 +65,19 @@ ConstraintRows turned(const ConstraintRows& rows) {
 
 /// \throws InputError when the distances are not as `initial` demands.
 void requireAllowed(double least, double most, InitialGap initial, double shorter, const std::string& names) {
-  const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
-    throw InputError(names + what + digits(by, 6) + " as meshed, expected " + expected);
+  const auto refuse = [&](const std::string& what, double by, const std::string& expected,
+                          const std::string& fault = "") {
+    throw InputError(names + what + digits(by, 6) + " as meshed, expected " + expected, fault);
   };
-  if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter) {
-    refuse(" penetrate each other by ", -least,
-           "at most " + digits(largestPenetration * shorter, 6) +
-               " (a hundredth of the shorter line); initial = \"close\" would let them touch");
-  }
+  const auto penetrate = [&](const std::string& expected) {
+    refuse(" penetrate each other by ", -least, expected, "contact-penetration");
+  };
+  if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter)
+    penetrate("at most " + digits(largestPenetration * shorter, 6) +
+              " (a hundredth of the shorter line); initial = \"close\" would let them touch");
   if (initial != InitialGap::reject) return;
   const std::string expected = "bodies that touch (initial = \"reject\")";
-  if (least < -touchingInFile * shorter) refuse(" penetrate each other by ", -least, expected);
+  if (least < -touchingInFile * shorter) penetrate(expected);
   if (most > touchingInFile * shorter) refuse(" are apart by up to ", most, expected);
 }
 
@@ -83,7 +85,8 @@ void requireAllowed(double least, double most, InitialGap initial, double shorte
 
 void refuseWithoutRows(const std::string& sides) {
   throw InputError(sides + " overlap at no nonmortar node, expected one across the mortar side: a finer " +
-                   "nonmortar side, or the sides exchanged");
+                       "nonmortar side, or the sides exchanged",
+                   "contact-no-overlap");
 }
 
 ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,

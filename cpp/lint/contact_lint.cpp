@@ -100,7 +100,7 @@ bool fits(const ContactDescription& contact, const Side& one, const Side& two, b
 
 /// Why the interface cannot be made: the fault behind the message of its constructor.
 void diagnose(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
-              const std::string& message, Faults& faults) {
+              const InputError& found, Faults& faults) {
   const std::string both = name(one) + " and " + name(two);
   for (const Side* side : {&one, &two}) {
     try {
@@ -122,13 +122,11 @@ void diagnose(const LintInput& input, const ContactDescription& contact, const S
                    facingPair(input, one, two));
     return;
   }
-  if (message.find("overlap") != std::string::npos)
-    faults.add("contact-no-overlap", contact.where,
+  if (found.fault() == "contact-no-overlap")
+    faults.add(found.fault(), contact.where,
                both + " face each other nowhere: no normal of the nonmortar side meets the mortar side");
-  else if (message.find("penetrate") != std::string::npos)
-    faults.add("contact-penetration", contact.where, message);
   else
-    faults.add("contact-line", contact.where, message);
+    faults.add(found.fault().empty() ? "contact-line" : found.fault(), contact.where, found.what());
 }
 
 void compareMeshes(const LintInput& input, const ContactDescription& contact, const Side& one,
@@ -305,7 +303,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
       if (contact.sliding != SlidingKind::finite) checkSliding(input, contact, one, two, interface, faults);
       lintApproach(input, contact, interface, faults);
     } catch (const InputError& error) {
-      diagnose(input, contact, one, two, error.what(), faults);
+      diagnose(input, contact, one, two, error, faults);
     }
   }
 }

@@ -28,8 +28,7 @@ std::string computedPlace(const Point& place, double size) {
 
 /// \param id  of faults that have none of their own.
 void addError(const InputError& error, const std::string& id, Faults& faults) {
-  const auto* own = dynamic_cast<const FaultError*>(&error);
-  faults.add(own != nullptr ? own->id() : id, error.what());
+  faults.add(error.fault().empty() ? id : error.fault(), error.what());
 }
 
 /// How deep the bodies of a contact overlap, as meshed or as its gap says:
@@ -201,7 +200,7 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
       addError(error, "mesh-file", report.faults);
     }
   }
-  for (const FaultError& error : resolveWhatCanBe(scene, known))
+  for (const InputError& error : resolveWhatCanBe(scene, known))
     addError(error, "label-twice", report.faults);
   const SceneDescription solved = asSolved(scene);
   runChecks(inputOf(solved, {known.begin(), known.end()}), report.faults);

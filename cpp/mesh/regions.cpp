@@ -186,7 +186,7 @@ void choose(const std::string& mesh, const std::string& what, const Items& items
     for (const int group : groups->second)
       if (used.contains(group)) chosen.push_back(group);
     if (chosen.size() > 1)
-      throw FaultError(mesh + ": a " + what + " at " + place(items[i]) + " is in the groups " +
+      throw InputError(mesh + ": a " + what + " at " + place(items[i]) + " is in the groups " +
                            nameOf(chosen[0], names) + " and " + nameOf(chosen[1], names) +
                            ", and the scene names both, expected groups that share none",
                        "label-twice");

@@ -30,7 +30,7 @@ template <class Mesh>
 void takeGroups(Mesh& mesh, const std::vector<std::string>& regions);
 
 /// Gives sides and elements in several groups the one that the scene names. \param labels, regions  those
-/// that it names. \throws FaultError `label-twice` with two groups where it names several of them
+/// that it names. \throws InputError `label-twice` with two groups where it names several of them
 template <class Mesh>
 void chooseGroups(Mesh& mesh, const std::set<int>& labels, const std::set<int>& regions);
 

@@ -61,9 +61,7 @@ class Validator {
 
   [[noreturn]] void fail(MeshPart part, int index, const std::string& what,
                          const std::string& id = {}) const {
-    const std::string message = (place_ ? place_(part, index) : mesh_.name) + ": " + what;
-    if (id.empty()) throw InputError(message);
-    throw FaultError(message, id);
+    throw InputError((place_ ? place_(part, index) : mesh_.name) + ": " + what, id);
   }
 
   void checkSizes() const {

@@ -160,10 +160,8 @@ void addAt(const ContactDescription& contact, const Add& add) {
   const std::string where = contact.where + ": contact: ";
   try {
     add();
-  } catch (const FaultError& error) {
-    throw FaultError(where + error.what(), error.id());
   } catch (const InputError& error) {
-    throw InputError(where + error.what());
+    throw InputError(where + error.what(), error.fault());
   }
 }
 

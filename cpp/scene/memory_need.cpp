@@ -149,7 +149,7 @@ void requireMemory(const MemoryNeed& need, bool friction) {
   const double available = availableMemory();
   if (need.all <= available) return;
   const std::string part = friction ? forFriction(need) : "";
-  throw FaultError("the run needs " + aboutMemory(need.all) + " of memory, expected at most the " +
+  throw InputError("the run needs " + aboutMemory(need.all) + " of memory, expected at most the " +
                        aboutMemory(available).substr(6) + " that are available" +
                        (part.empty() ? "" : "; " + part),
                    "memory");

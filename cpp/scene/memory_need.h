@@ -35,7 +35,7 @@ std::string forFriction(const MemoryNeed& need);
 /// What the machine and the limits of the process leave [bytes]; infinity where it is not known.
 double availableMemory();
 
-/// \throws FaultError with both numbers where a run needs more than there is.
+/// \throws InputError with both numbers where a run needs more than there is.
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
                    int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
 

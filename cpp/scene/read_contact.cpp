@@ -121,7 +121,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.sliding = table.choice<SlidingKind>("sliding");
   if (contact.sliding == SlidingKind::finite) refuseBesideFinite(table, scene, contact);
   if (contact.nonmortar().body == contact.mortar().body)
-    throw FaultError(table.message(contact.mortar().where,
+    throw InputError(table.message(contact.mortar().where,
                                    "both sides are body " + contact.mortar().body + ", expected two bodies"),
                      "same-body");
   for (const ContactDescription& other : scene.contacts) {

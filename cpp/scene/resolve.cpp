@@ -125,7 +125,7 @@ SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, con
 }
 
 /// Gives the mesh of a body, of groups that share sides or elements, those that the scene names. \pre labels
-/// are numbers. \throws FaultError
+/// are numbers. \throws InputError
 template <class Mesh>
 void chooseGroupsOf(SceneDescription& scene, int body, Mesh& mesh) {
   std::set<int> labels;
@@ -203,7 +203,7 @@ ResolvedScene resolveScene(SceneDescription scene) {
   return resolved;
 }
 
-std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes) {
+std::vector<InputError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes) {
   constexpr int none = -2;
   const auto number = [&](std::map<std::string, int> TriangleMesh::*names) {
     return [&meshes, names](int body, int& label, const std::string& name, const std::string& /*where*/) {
@@ -224,12 +224,12 @@ std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vec
     }
   };
   forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);
-  std::vector<FaultError> faults;
+  std::vector<InputError> faults;
   for (size_t b = 0; b < meshes.size(); ++b) {
     if (meshes[b] == nullptr) continue;
     try {
       chooseGroupsOf(scene, static_cast<int>(b), *meshes[b]);
-    } catch (const FaultError& error) {
+    } catch (const InputError& error) {
       faults.push_back(error);
     }
   }

@@ -31,7 +31,7 @@ ResolvedScene resolveScene(SceneDescription scene);
 /// name that a mesh does not have gets a number that no mesh has, and a contact with such a side and a point
 /// that is no vertex stay as they were written. \returns what is wrong with groups that share sides or
 /// elements
-std::vector<FaultError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes);
+std::vector<InputError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes);
 
 // Parts of it.
 
