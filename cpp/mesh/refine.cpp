@@ -32,7 +32,10 @@ class Bisection {
   Bisection(const TriangleMesh& mesh, const CurvedEdges& curves) : old_(mesh) {
     result_.mesh = mesh;
     result_.curves = curves;
-    for (auto& triangle : result_.mesh.triangles) triangle = onItsLongestSide(mesh, triangle);
+    for (auto& triangle : result_.mesh.triangles) {
+      stopIfInterrupted();
+      triangle = onItsLongestSide(mesh, triangle);
+    }
     sides_ = sortedSides(result_.mesh);
     triangles_ = std::exchange(result_.mesh.triangles, {});
     edges_.resize(sides_.size());

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "base/interrupt.h"
 
 namespace mortier {
 
@@ -19,6 +20,7 @@ TriangleSides sortedSides(const TriangleMesh& mesh) {
       sides[next[low]++] = {{low, high}, static_cast<int>(3 * t) + k};
     }
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    stopIfInterrupted();
     while (end < sides.size() && sides[end].edge[0] == sides[begin].edge[0]) ++end;
     std::sort(sides.data() + begin, sides.data() + end, [](const TriangleSide& a, const TriangleSide& b) {
       return a.edge[1] != b.edge[1] ? a.edge[1] < b.edge[1] : a.place < b.place;
