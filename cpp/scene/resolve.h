@@ -58,7 +58,7 @@ double crossedPart(const TriangleMesh& mesh);
 void decideVolumes(SceneDescription& scene);
 
 // Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
-// bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer
+// docs/benchmarks.md: the finer mesh along the contact, or the softer body where the other is far stiffer
 // (but with interpolation).
 
 /// Young's modulus of the body of one side over that of the other's. A side whose normal motion is prescribed
