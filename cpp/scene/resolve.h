@@ -57,7 +57,7 @@ double crossedPart(const TriangleMesh& mesh);
 /// accuracy.bound none. A second call changes nothing.
 void decideVolumes(SceneDescription& scene);
 
-// Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
+// Which side of a contact is nonmortar where the scene leaves it open (`sides`), as measured in
 // docs/benchmarks.md: the finer mesh along the contact, or the softer body where the other is far stiffer
 // (but with interpolation).
 
