@@ -95,7 +95,7 @@ class HostileText(support.OfTwoBlocks):
                     self.assertTrue(shown[0].isprintable(), text)
 
     def test_long_settings_and_tables(self):
-        table = ("{time=[" + ",".join(str(i / 7) for i in range(5000)) + "], value=[" + ",".join(["1"] * 5000)
+        table = ("{time=[" + ",".join(str(i / 7000) for i in range(5000)) + "], value=[" + ",".join(["1"] * 5000)
                  + "]}")
         setting = f"body.upper.boundary.3.ty={table}"
         for command in ("check", "run"):
@@ -105,8 +105,7 @@ class HostileText(support.OfTwoBlocks):
             self.assertEqual(done.returncode, 2)
             self.assertLess(len(done.stdout + done.stderr), 5000)
         done = support.mortier("check", "scene.toml", "--set", setting, cwd=self.folder)
-        self.assertIn("changes at t = 0.14285714285714285 and at 5 more times, within a step", done.stdout)
-        self.assertIn("and at 4991 more times, the run ends at 1", done.stdout)
+        self.assertIn(f"changes at t = {1 / 7000} and at 4996 more times, within a step", done.stdout)
         self.assertLess(len(done.stdout), 5000)
 
     def test_what_is_no_scene_and_no_number(self):
