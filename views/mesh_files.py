@@ -201,8 +201,8 @@ def read(path: Path) -> Groups:
     except (ImportError, MemoryError, Wrong):
         raise
     except Exception as error:  # of whatever meshio meets in a damaged file
-        where = traceback.extract_tb(error.__traceback__)[-1].name
-        raise Wrong(f"meshio cannot read it: {type(error).__name__}: {str(error) or 'in ' + where}") from error
+        why = str(error) or "in " + traceback.extract_tb(error.__traceback__)[-1].name
+        raise Wrong(f"meshio cannot read it: {type(error).__name__}: {why}") from error
 
 
 def answer(path: str) -> str:
