@@ -217,8 +217,8 @@ class ContactInterface {
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
-  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m], fitted over the elements of
-  /// a mortar side that is coarser, in space of both sides.
+  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m], fitted over the elements
+  /// of a mortar side that is coarser, in space of both sides.
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
   /// The part of the largest nodal pressure by which nodal pressures change within elements of the mortar
   /// side beside what is linear there; ends of contact do not count [-].
