@@ -279,4 +279,6 @@ class Reader:
 def read(path: Path) -> Groups:
     reader = Reader()
     reader.file(path)
+    if not reader.places:
+        raise Wrong("no *NODE, expected an input file of Abaqus or CalculiX")
     return reader.groups()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 import sys
+import traceback
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -200,7 +201,8 @@ def read(path: Path) -> Groups:
     except (ImportError, MemoryError, Wrong):
         raise
     except Exception as error:  # of whatever meshio meets in a damaged file
-        raise Wrong(f"meshio cannot read it: {type(error).__name__}: {error}") from error
+        why = str(error) or "in " + traceback.extract_tb(error.__traceback__)[-1].name
+        raise Wrong(f"meshio cannot read it: {type(error).__name__}: {why}") from error
 
 
 def answer(path: str) -> str:

@@ -239,7 +239,7 @@ void ContactInterface::setRows(const Entries& entries) {
   C2_ = assembled<ConstraintRows>(n, C2_.cols(), entries.mortar);
   mass_ = assembled(n, n, entries.mass);
   compliance_ = assembled(n, n, entries.compliance);
-  means_ = assembled(n, n, entries.means);
+  fits_ = means_ = assembled(n, n, entries.means);
   ends_ = assembled(n, n, entries.ends);
   if (ends_.nonZeros() <= n) ends_ = {};
   weights_ = mass_ * Vector::Ones(n);
@@ -287,7 +287,7 @@ Vector ContactInterface::nodalPressure(const Vector& p) const {
 }
 
 Vector ContactInterface::contactPressure(const Vector& p) const {
-  return stabilised_ && means_.nonZeros() > 0 ? Vector(means_ * nodalPressure(p)) : nodalPressure(p);
+  return stabilised_ && fits_.nonZeros() > 0 ? Vector(fits_ * nodalPressure(p)) : nodalPressure(p);
 }
 
 double ContactInterface::pressureRoughness(const Vector& p) const {

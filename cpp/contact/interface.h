@@ -217,8 +217,8 @@ class ContactInterface {
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
-  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m], where the mortar side is
-  /// coarser means over its elements.
+  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m], fitted over the elements
+  /// of a mortar side that is coarser, in space of both sides.
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
   /// The part of the largest nodal pressure by which nodal pressures change within elements of the mortar
   /// side beside what is linear there; ends of contact do not count [-].
@@ -286,6 +286,7 @@ class ContactInterface {
   Eigen::SparseMatrix<double> mass_;
   Eigen::SparseMatrix<double> compliance_;
   Eigen::SparseMatrix<double> means_;
+  Eigen::SparseMatrix<double> fits_;  ///< of pressures in results
   Vector weights_;
   bool stabilised_ = false;
   Eigen::SparseMatrix<double> ends_;  ///< T of end_rows.h; empty where it is the identity

@@ -95,6 +95,27 @@ double partOf(const Eigen::Matrix3d& spacing, const SpacePoint& normal, const Sp
   return std::sqrt(along.dot(whole.inverse() * along));
 }
 
+/// Calls visit(i, j) for the pairs of rows of one part that are nearer than such a distance.
+template <class Visit>
+void forEachPair(const std::vector<SurfaceRow>& rows, Eigen::Matrix3d SurfaceRow::*spacing, Visit visit) {
+  std::vector<int> order(rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(rows[i].place.x(), i) < std::pair(rows[j].place.x(), j); });
+  const auto squareOf = [&](const SurfaceRow& row) { return (row.*spacing).trace(); };
+  double range = 0;
+  for (const SurfaceRow& row : rows) range = std::max(range, std::sqrt(squareOf(row)));
+  for (size_t a = 0; a < order.size(); ++a)
+    for (size_t b = a + 1; b < order.size(); ++b) {
+      const SurfaceRow& one = rows[order[a]];
+      const SurfaceRow& other = rows[order[b]];
+      const SpacePoint way = other.place - one.place;
+      if (!(way.x() < range)) break;
+      if (one.part == other.part && way.squaredNorm() < std::max(squareOf(one), squareOf(other)))
+        visit(order[a], order[b]);
+    }
+}
+
 /// A row, and one whose pressure is compared with its own.
 struct NearRow {
   int row = 0, other = 0;
@@ -208,16 +229,37 @@ Eigen::Matrix3d SurfaceSpacing::at(const RayHit& hit) const {
   return result;
 }
 
+Eigen::Vector2d SurfaceRow::alongIt(const SpacePoint& way) const {
+  const SpacePoint across = normal.unitOrthogonal();
+  return {way.dot(across), way.dot(normal.cross(across))};
+}
+
+Eigen::Matrix3d SurfaceSpacing::ofVertices(int node) const {
+  return surface_.degree * surface_.degree * atVertices_.at(node);
+}
+
+Eigen::SparseMatrix<double> linearFits(const std::vector<SurfaceRow>& rows, const Vector& areas) {
+  std::vector<NearRow> near;
+  const auto add = [&](int i, int j) {
+    const SurfaceRow& row = rows[i];
+    const SpacePoint way = rows[j].place - row.place;
+    const double own = std::max(0.0, 1 - partOf(row.fitted, row.normal, way));
+    if (own > 0) near.push_back({i, j, 0, own * areas[j], row.alongIt(way) / spacingOf(row.fitted)});
+  };
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) add(i, i);
+  forEachPair(rows, &SurfaceRow::fitted, [&](int i, int j) {
+    add(i, j);
+    add(j, i);
+  });
+  return linearFits(areas.size(), near);
+}
+
 PressureCompliance pressureCompliance(const std::vector<SurfaceRow>& rows, const Vector& areas,
                                       double compliance) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   PressureCompliance result{{n, n}, {n, n}, Vector::Zero(n)};
   if (!(compliance > 0)) return result;
   for (Eigen::Index i = 0; i < n; ++i) result.spacing[i] = spacingOf(rows[i].spacing);
-  std::vector<int> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return std::pair(rows[i].place.x(), i) < std::pair(rows[j].place.x(), j); });
   std::vector<NearRow> near;
   const auto add = [&](int i, int j, bool once) {
     const SurfaceRow& row = rows[i];
@@ -226,25 +268,15 @@ PressureCompliance pressureCompliance(const std::vector<SurfaceRow>& rows, const
     const double own = std::max(0.0, 1 - partOf(row.spacing, row.normal, way));
     const double k = once ? std::max(0.0, 1 - partOf(mean, row.normal + rows[j].normal, way)) : 0;
     if (!(own > 0) && !(k > 0)) return;
-    const SpacePoint across = row.normal.unitOrthogonal();
-    const Eigen::Vector2d along(way.dot(across), way.dot(row.normal.cross(across)));
     near.push_back({i, j, k > 0 ? k * areas[i] * areas[j] / spacingOf(mean) : 0, own * areas[j],
-                    along * (own > 0 ? 1 / result.spacing[i] : 0)});
+                    row.alongIt(way) * (own > 0 ? 1 / result.spacing[i] : 0)});
   };
-  double range = 0;
-  for (const SurfaceRow& row : rows) range = std::max(range, std::sqrt(row.spacing.trace()));
-  for (Eigen::Index a = 0; a < n; ++a) {
-    if (result.spacing[order[a]] > 0) add(order[a], order[a], false);
-    for (Eigen::Index b = a + 1; b < n; ++b) {
-      const int i = order[a];
-      const int j = order[b];
-      const SpacePoint way = rows[j].place - rows[i].place;
-      if (!(way.x() < range)) break;
-      if (rows[i].part != rows[j].part || !(way.squaredNorm() < range * range)) continue;
-      add(i, j, true);
-      add(j, i, false);
-    }
-  }
+  for (int i = 0; i < n; ++i)
+    if (result.spacing[i] > 0) add(i, i, false);
+  forEachPair(rows, &SurfaceRow::spacing, [&](int i, int j) {
+    add(i, j, true);
+    add(j, i, false);
+  });
   // In space the integral of k/h over the disc of radius h is pi/3 h, that over the line h.
   assemble(near, areas, 3 / M_PI * ofMissing * compliance, result);
   return result;

@@ -13,7 +13,10 @@
 // nodes, and zero where the mortar side is as fine as the rows or is held.
 //
 // What still varies within h2 is no pressure of the bodies. Pressures are given by the linear functions that
-// fit those within h2 best, with the weights k_ij l_j: linear pressures stay as they are.
+// fit those within h2 best, with the weights k_ij l_j: linear pressures stay as they are. On a surface they
+// are fitted within the metric H2 + 3/2 H1, H1 of the vertices of the nonmortar side: on tetrahedra of any
+// shape the force on a node follows these as well, by 20 % of the pressure for linear ones with 10 on a half
+// width, though displacements are right.
 #pragma once
 
 #include <map>
@@ -47,6 +50,8 @@ class SurfaceSpacing {
   explicit SurfaceSpacing(const ContactSurface& surface);
   /// \returns zero where a ray has met nothing
   [[nodiscard]] Eigen::Matrix3d at(const RayHit& hit) const;
+  /// \returns that of the vertices alone at one of them
+  [[nodiscard]] Eigen::Matrix3d ofVertices(int node) const;
 
  private:
   const ContactSurface& surface_;
@@ -60,6 +65,10 @@ struct SurfaceRow {
   int part = 0;  ///< rows of one smooth part are compared
   /// Of the mortar surface there, 0 where it is held.
   Eigen::Matrix3d spacing = Eigen::Matrix3d::Zero();
+  /// Within which pressures are fitted.
+  Eigen::Matrix3d fitted = Eigen::Matrix3d::Zero();
+  /// Components along the surface.
+  [[nodiscard]] Eigen::Vector2d alongIt(const SpacePoint& way) const;
 };
 
 /// The same of a surface, with h2 in the direction from row to row:
@@ -67,5 +76,8 @@ struct SurfaceRow {
 /// \param areas  integrals of the row functions [m^2]
 PressureCompliance pressureCompliance(const std::vector<SurfaceRow>& rows, const Vector& areas,
                                       double compliance);
+
+/// Nodal pressures by rows as the linear functions that fit those within `fitted` best.
+Eigen::SparseMatrix<double> linearFits(const std::vector<SurfaceRow>& rows, const Vector& areas);
 
 }  // namespace mortier

@@ -111,7 +111,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   std::vector<RayHit> hits;
   std::vector<double> distances;
   std::vector<SurfaceRow> surfaceRows;
+  constexpr double ofNonmortar = 1.5;  // as little blurs the ends of contact, as much evens out tetrahedra
   const SurfaceSpacing spacing(mortar);
+  const SurfaceSpacing ownSpacing(nonmortar);
   const auto mortarIsHeld = [&](const RayHit& hit, const SpacePoint& n) {
     bool all = hit.triangle >= 0 && options.mortarHeld;
     for (int k = 0; k < 3 && all; ++k) all = options.mortarHeld(mortar.triangles[hit.triangle][k], n);
@@ -138,8 +140,10 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     hits.push_back(hit);
     distances.push_back(hit.triangle < 0 ? infinity
                                          : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu));
-    surfaceRows.push_back(
-        {vertex.place, n, key.second, mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : spacing.at(hit)});
+    const Eigen::Matrix3d opposite = spacing.at(hit);
+    surfaceRows.push_back({vertex.place, n, key.second,
+                           mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : opposite,
+                           opposite + ofNonmortar * ownSpacing.ofVertices(key.first)});
   }
   shareFunctions(vertices);
   const auto rows = static_cast<Eigen::Index>(result.nonmortarNodes_.size());
@@ -310,6 +314,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.stabilised_ = options.stabilised;
     if (options.stabilised) result.compliance_ = std::move(yielding.S);
     result.means_ = std::move(yielding.means);
+    result.fits_ = linearFits(surfaceRows, result.lengths_);
     result.mortarSpacing_ = std::move(yielding.spacing);
   }
   std::set<int> mortarNodes;

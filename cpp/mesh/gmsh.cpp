@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -300,12 +301,23 @@ TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
   return mesh;
 }
 
+/// Other programs have files of this name, which Gmsh runs as geometries.
+void requireSections(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".msh") return;
+  std::ifstream file(path);
+  if (char first = 0; !(file >> first) || first != '$')
+    throw InputError(path +
+                     ":1: expected $MeshFormat, with which meshes of Gmsh begin; files of other kinds: " +
+                     otherMeshFiles());
+}
+
 /// In a process of its own. \param read  from (Gmsh, MeshSource) to a mesh
 template <class Read>
 auto readInChild(const MeshSource& source, double seconds, const Read& read) {
   const std::string& path = source.path;
   if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
     throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
+  requireSections(path);
   const auto work = [&] {
     requireConstants(source);
     const Gmsh gmsh(source);

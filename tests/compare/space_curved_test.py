@@ -1,5 +1,9 @@
 """Curved surfaces in contact in space: with Gmsh's geometry, and from triangles alone."""
+import csv
+import math
 import unittest
+
+import numpy as np
 
 from space_support import InSpace
 
@@ -98,6 +102,52 @@ end = 1
 steps = 1
 """
 
+# A thin slice of a roller in a groove of 90 degrees, half of it.
+GROOVE = """\
+SetFactory("OpenCASCADE");
+DefineConstant[ f = 0.06, W = 0.3 ];
+R = 10;
+Cylinder(1) = {0, 0, R*Sqrt(2), 0, W, 0, R}; Box(2) = {-2*R, -1, -R, 2*R, W + 2, 5*R};
+BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Box(4) = {-30, 0, -20, 30, W, 38};
+Point(101) = {0, -1, 0}; Point(102) = {0, -1, 40}; Point(103) = {-40, -1, 40};
+Line(101) = {101, 102}; Line(102) = {102, 103}; Line(103) = {103, 101};
+Curve Loop(101) = {101:103}; Plane Surface(101) = {101};
+w[] = Extrude {0, 30, 0} { Surface{101}; };
+BooleanDifference(6) = { Volume{4}; Delete; }{ Volume{w[1]}; Delete; };
+Physical Volume("roller") = {3}; Physical Volume("block") = {6};
+Physical Surface("round") = {1}; Physical Surface("upper x") = {2}; Physical Surface("upper y") = {3, 4};
+Physical Surface("lower y") = {6, 8}; Physical Surface("bottom") = {9}; Physical Surface("lower x") = {10};
+Physical Surface("flank") = {11};
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Field[1] = MathEval; Background Field = 1;
+Field[1].F = Sprintf("%g + 0.4*Max(0, Sqrt((x + 7.0710678)^2 + (z - 7.0710678)^2) - 0.34)", f);
+"""
+GROOVE_SCENE = """\
+dimension = 3
+[[body]]
+name = "roller"
+mesh = { file = "groove.geo", region = "roller" }
+material = { young = 210e3, poisson = 0.3 }
+boundary = [ { label = "upper x", ux = 0 }, { label = "upper y", uy = 0 } ]
+force = { z = -1.0610329539 }
+[[body]]
+name = "block"
+mesh = { file = "groove.geo", region = "block" }
+material = { young = 70e3, poisson = 0.33 }
+boundary = [ { label = "lower x", ux = 0 }, { label = "lower y", uy = 0 }, { label = "bottom", uz = 0 } ]
+[contact]
+mortar = { body = "block", label = "flank" }
+nonmortar = { body = "roller", label = "round" }
+[[quantity]]
+name = "z"
+contact_force = { body = "roller", label = "round" }
+component = "z"
+[time]
+end = 1
+steps = 1
+"""
+
 
 def cylinder(across):
     text = CYLINDER.replace("TURNED", "Rotate {{1, 1, 0}, {0, 0, 0}, Pi} { Volume{1}; }" if across else "")
@@ -106,6 +156,24 @@ def cylinder(across):
 
 
 class CurvedSurfaces(InSpace):
+    def test_a_roller_presses_along_a_groove_as_that_of_hertz(self):
+        self.write(GROOVE, "groove.geo")
+        for degree, size, part, within in ((1, 0.038, 0.85, 0.1), (2, 0.057, 0.7, 0.05)):
+            with self.subTest(degree=degree):
+                values = self.run_scene(GROOVE_SCENE, f"degree={degree}", *(
+                    f"body.{name}.mesh.parameters.f={size}" for name in ("roller", "block")))
+                force = math.sqrt(2)*abs(values["z"])/0.3
+                modulus = 1/((1 - 0.3**2)/210e3 + (1 - 0.33**2)/70e3)
+                width = math.sqrt(4*force*10/(math.pi*modulus))
+                rows = [row for row in csv.DictReader(self.read("out/contact.csv").splitlines())
+                        if row["time"] == "1"]
+                x, z, found = (np.array([float(row[c]) for row in rows]) for c in ("x", "z", "pressure"))
+                way = 10*(np.arctan2(z - 10*math.sqrt(2), x) + 3*math.pi/4)/width
+                inside = np.abs(way) < part
+                self.assertGreater(inside.sum(), 30)
+                off = found[inside]*math.pi*width/(2*force) - np.sqrt(1 - way[inside]**2)
+                self.assertLess(np.abs(off).max(), within)
+
     def test_bodies_of_one_mesh_touch_everywhere(self):
         """Lame: the pressure where the tubes meet is that in one tube."""
         self.write(TUBES, "two.geo")

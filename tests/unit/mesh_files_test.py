@@ -225,12 +225,16 @@ class MeshFiles(InFolder):
                  "set left has 9999, which is not there"),
                 ("a.inp", sound.replace("*Node,", "*Ngen,"), "*NGEN, expected all nodes and elements"),
                 ("a.inp", sound.replace("*Step", "*Surface, name=s\nEall, S7\n*Step"), "side S7 of a tetra"),
-                ("a.inp", "*Heading\n", "no cells of a plane or of space"),
-                ("a.inp", "", "no cells of a plane or of space"),
+                ("a.inp", "*Heading\n", "no *NODE, expected an input file of Abaqus or CalculiX"),
+                ("a.inp", "4 1 0 0 0\n1 0 0 0\n", "a.inp: no *NODE, expected an input file of Abaqus"),
+                ("a.inp", flat[:flat.index("*Element")], "no cells of a plane or of space"),
                 ("a.inp", flat + "*Element, type=CPS3\n99, 101, 102\n*Step\n",
                  "the other nodes of element 99"),
                 ("a.vtu", "<VTKFile", "a.vtu: meshio cannot read it: "),
                 ("a.vtk", "# vtk DataFile Version 3.0\n", "a.vtk: meshio cannot read it: "),
+                ("a.vtu", "", "a.vtu: meshio cannot read it: ReadError: in _parse_raw_binary"),
+                ("a.msh", "4 2 4\n0 0 1\n", "a.msh:1: expected $MeshFormat, with which meshes of Gmsh begin; "
+                 "files of other kinds: .msh, .geo, "),
                 ("a.meshb", "\x01\0\0\0", "a.meshb: meshio cannot read it: "),
                 ("a.mesh", "*NODE\n", "a.mesh:1: '*NODE', expected MeshVersionFormatted as the first word "
                  "of a Medit file; files of other kinds: .msh, .geo, "),
