@@ -74,6 +74,7 @@ class Fitted final : public ErrorEstimator::Recovery {
   using Stresses = Eigen::Matrix<double, 6, nodes>;
 
   explicit Fitted(const Body& body) : body_(body), samples_(dimension, body.points()) {
+    if (body.rigid()) return;
     for (int i = 0; i < body.points(); ++i) samples_.col(i) = body.placeOfPoint(i).head<dimension>();
     findPlaces();
     findPatches();
