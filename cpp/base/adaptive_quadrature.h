@@ -26,6 +26,11 @@ struct Resolved {
   double size = 0;       ///< largest absolute value at a sample
   double uncertain = 0;  ///< mean of the part of the function that the samples may miss
   Place worst{};         ///< where they miss most
+  [[nodiscard]] double mean() const {
+    double sum = 0;
+    for (const auto& sample : samples) sum += sample.weight * sample.value;
+    return sum;
+  }
   /// Whether what is missed is negligible; otherwise the budget of evaluations was used up.
   [[nodiscard]] bool complete() const { return !(uncertain > negligible * size); }
   static constexpr double negligible = 1e-3;

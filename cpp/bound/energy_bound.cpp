@@ -32,7 +32,7 @@ std::string obstacleOf(const Model& model) {
   return "";
 }
 
-EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Quantity>& quantities) {
   EnergyBound result;
   result.obstacle = obstacleOf(model);
   if (!result.obstacle.empty()) return result;
@@ -66,15 +66,15 @@ EnergyBound boundOf(const Model& model, const State& state, const std::vector<Fu
   result.oscillation = norm > 0 ? std::sqrt(data / norm) : 0;
   result.bound = std::sqrt(result.stress * result.stress + lift + 2 * pair.lifting.gap);
   if (result.bound * result.bound <= rounding) result.bound = result.stress = result.lift = result.gap = 0;
-  result.quantities = enclose(pair, functionals);
+  result.quantities = enclose(pair, quantities);
   return result;
 }
 
 }  // namespace
 
-EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
-  EnergyBound result = boundOf(model, state, functionals);
-  if (!result.obstacle.empty()) result.quantities.assign(functionals.size(), {result.obstacle});
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Quantity>& quantities) {
+  EnergyBound result = boundOf(model, state, quantities);
+  if (!result.obstacle.empty()) result.quantities.assign(quantities.size(), {result.obstacle});
   return result;
 }
 

@@ -7,14 +7,29 @@
 //   |s - sigma|^2  <=  |s^ - s|^2 + |a - s|^2 + 2 integral of p^ G(u^)
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bound/functional.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "time/quantity.h"
 
 namespace mortier {
+
+/// A number of the exact solution.
+struct Enclosure {
+  std::string obstacle;  ///< why there is none; empty where there is
+  double lower = 0;      ///< the exact value is not below
+  double upper = 0;      ///< and not above
+  /// What each triangle of the bodies' own meshes adds to the half of upper - lower, nearly.
+  std::vector<Vector> parts = {};
+  std::optional<double> estimate = {};  ///< of an error of which nothing is proved
+
+  /// Of a computed value, at most.
+  [[nodiscard]] double error(double value) const { return std::max({value - lower, upper - value, 0.0}); }
+};
 
 struct EnergyBound {
   /// Why there is none; empty where there is.
@@ -37,9 +52,8 @@ struct EnergyBound {
   [[nodiscard]] double relative() const;
 };
 
-/// \param functionals  to be enclosed
-EnergyBound energyBound(const Model& model, const State& state,
-                        const std::vector<Functional>& functionals = {});
+/// \param quantities  to be enclosed
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Quantity>& quantities = {});
 
 /// Why there is none, as far as model and data say so before the run. \param state  any at its end
 std::string foreseenObstacle(const Model& model, const State& state);

@@ -70,19 +70,22 @@ class Enclosing {
     addWorkOfPressure([&](int i) { return facing_[i].gap; }, misfits_);
   }
 
-  [[nodiscard]] Enclosure enclose(const Functional& functional) const {
-    if (!functional.obstacle.empty()) return {functional.obstacle};
-    const Goal goal = goalOf(pair_, functional);
-    Enclosure result = enclose(functional, goal);
+  [[nodiscard]] Enclosure enclose(const Quantity& quantity) const {
+    using Kind = Quantity::Kind;
+    if (!hasComponent(quantity.kind) && quantity.kind != Kind::meanPressure)
+      return {"only forces, mean displacements and mean pressures have one"};
+    if (quantity.point && quantity.kind == Kind::reaction) return {"forces at a point have none"};
+    const Goal goal = goalOf(pair_, quantity);
+    Enclosure result = enclose(quantity, goal);
     if (!result.obstacle.empty()) return result;
-    if (functional.point) {
-      const Vector& u = pair_.bodies[functional.body].place().displacement;
-      result.estimate = result.error(goal.loads[functional.body].dot(u));
+    if (quantity.point) {
+      const Vector& u = pair_.bodies[quantity.body].place().displacement;
+      result.estimate = result.error(goal.loads[quantity.body].dot(u));
       result.obstacle = "displacements at a point have none, means of a label have";
     }
-    if (functional.kind != Functional::Kind::meanPressure) return result;
-    const Goal other = goalOf(pair_, functional, BoundSide::above);
-    Enclosure above = enclose(functional, other);
+    if (quantity.kind != Kind::meanPressure) return result;
+    const Goal other = goalOf(pair_, quantity, BoundSide::above);
+    Enclosure above = enclose(quantity, other);
     if (!above.obstacle.empty()) return above;
     std::vector<Vector> between = none();
     addWorkOfPressure([&](int i) { return (other.r[i] - goal.r[i]) / 2; }, between);
@@ -94,14 +97,14 @@ class Enclosing {
   }
 
  private:
-  [[nodiscard]] Enclosure enclose(const Functional& functional, const Goal& goal) const {
+  [[nodiscard]] Enclosure enclose(const Quantity& quantity, const Goal& goal) const {
     if (!goal.obstacle.empty()) return {goal.obstacle};
     Enclosure result{"no adjoint displacement and stress were found", -infinity, infinity};
     double least = infinity;
     // First as if contact stayed as it is, then with z and q cut to what costs nothing in R.
     double c = infinity;
     for (int i = 0; i < tries; ++i) {
-      const std::optional<Trial> trial = attempt(functional, goal, c);
+      const std::optional<Trial> trial = attempt(quantity, goal, c);
       if (!trial) break;
       const double remainder = largestRemainder(Q_, trial->misfit, trial->c) + trial->rounding;
       if (std::isfinite(remainder)) {
@@ -175,7 +178,7 @@ class Enclosing {
     return onOwnMeshes(parts);
   }
 
-  [[nodiscard]] std::optional<Trial> attempt(const Functional& functional, const Goal& goal, double c) const {
+  [[nodiscard]] std::optional<Trial> attempt(const Quantity& quantity, const Goal& goal, double c) const {
     const auto glued = displacement(goal, c);
     if (!glued) return std::nullopt;
     const auto& z = glued->solution.displacements;
@@ -185,9 +188,9 @@ class Enclosing {
     bodies.reserve(pair_.bodies.size());
     for (size_t b = 0; b < pair_.bodies.size(); ++b) bodies.push_back(pair_.bodies[b].unloaded(z[b]));
     if (goal.triangle >= 0)
-      bodies[functional.body].push(goal.triangle, goal.force);
+      bodies[quantity.body].push(goal.triangle, goal.force);
     else
-      bodies[functional.body].pull(functional.label, goal.traction);
+      bodies[quantity.body].pull(quantity.label, goal.traction);
     const auto q = adjointPressure(pair_, glued->solution.forces, bodies, c);
     if (!q) return std::nullopt;
     for (size_t k = 0; k < q->size(); ++k)
@@ -216,7 +219,7 @@ class Enclosing {
       trial.centre += goal.loads[b].dot(pair_.lifting.displacements[b]) + workIn(b, z[b], bodies[b]);
     }
     trial.misfit = std::sqrt(std::max(misfit, 0.0));
-    for (size_t b = 0; b < bodies.size(); ++b) addData(b, functional, goal, z[b], trial);
+    for (size_t b = 0; b < bodies.size(); ++b) addData(b, quantity, goal, z[b], trial);
     trial.rounding = triangles_ * (left * moved_ + unbalanced_ * moved) + glued->off * pressed;
     for (size_t b = 0; b < bodies.size(); ++b)
       for (size_t t = 0; t < sizes_[b].size(); ++t)
@@ -243,8 +246,7 @@ class Enclosing {
   }
   /// What s_D and s_W, that of w and of initial stresses, have in the sums: (s_D - s_W, eps z), l(w), and
   /// half of (|s_D| + |s_W|) |t - E eps z|.
-  void addData(size_t b, const Functional& functional, const Goal& goal, const Vector& z,
-               Trial& trial) const {
+  void addData(size_t b, const Quantity& quantity, const Goal& goal, const Vector& z, Trial& trial) const {
     const BodyData& data = pair_.bodies[b].data();
     if (data.linear() && data.moved.empty()) return;
     for (int t = 0; t < static_cast<int>(data.forces.size()); ++t) {
@@ -255,10 +257,10 @@ class Enclosing {
       trial.rounding +=
           (data.carried[t] + data.strained[t]) * std::sqrt(std::max(trial.misfits[b][t], 0.0)) / 2;
     }
-    if (functional.kind == Functional::Kind::displacement && functional.body == static_cast<int>(b) &&
+    if (quantity.kind == Quantity::Kind::displacement && quantity.body == static_cast<int>(b) &&
         goal.triangle < 0)
       for (const BodyData::Moved& each : data.moved)
-        if (each.label == functional.label) {
+        if (each.label == quantity.label) {
           trial.centre += goal.traction.dot(each.integral);
           trial.rounding += goal.traction.norm() * each.error;
         }
@@ -327,13 +329,13 @@ double largestRemainder(double Q, double misfit, double c) {
   return c * Q + misfit * misfit / (4 * c);
 }
 
-std::vector<Enclosure> enclose(const Admissible& pair, const std::vector<Functional>& functionals) {
+std::vector<Enclosure> enclose(const Admissible& pair, const std::vector<Quantity>& quantities) {
   std::vector<Enclosure> result;
-  if (functionals.empty()) return result;
+  if (quantities.empty()) return result;
   if (pair.lifting.facing.size() > mostFacing)
-    return std::vector<Enclosure>(functionals.size(), {"the contact lines have too many vertices"});
+    return std::vector<Enclosure>(quantities.size(), {"the contact lines have too many vertices"});
   const Enclosing enclosing(pair);
-  for (const Functional& functional : functionals) result.push_back(enclosing.enclose(functional));
+  for (const Quantity& quantity : quantities) result.push_back(enclosing.enclose(quantity));
   return result;
 }
 

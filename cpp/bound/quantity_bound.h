@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "bound/admissible.h"
-#include "bound/functional.h"
+#include "bound/energy_bound.h"
 #include "bound/lift.h"
 #include "bound/loaded_body.h"
 #include "linear/condensing_solver.h"
@@ -40,7 +40,7 @@ struct Goal {
 /// value is between those of an r that is nowhere above the weight, and of one that is nowhere below.
 enum class BoundSide { below, above };
 
-Goal goalOf(const Admissible& pair, const Functional& functional, BoundSide side = BoundSide::below);
+Goal goalOf(const Admissible& pair, const Quantity& quantity, BoundSide side = BoundSide::below);
 
 /// Coefficients of q, spread as p^ and zero where it is, |q| <= c p^. \param glue  forces by facing vertices
 /// \param bodies  of z, under their loads. \returns none where no such q is in equilibrium with them
@@ -50,7 +50,7 @@ std::optional<std::vector<Vector>> adjointPressure(const Admissible& pair, const
 /// The largest |R|. \param misfit  |E eps z - t|
 double largestRemainder(double Q, double misfit, double c);
 
-std::vector<Enclosure> enclose(const Admissible& pair, const std::vector<Functional>& functionals);
+std::vector<Enclosure> enclose(const Admissible& pair, const std::vector<Quantity>& quantities);
 
 // Linear elastic bodies whose contact lines are glued in part: displacements z by matched meshes with
 //

@@ -1,12 +1,12 @@
 #include "bound/quantity_bound.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "bound/pressures.h"
 #include "mesh/boundary_line.h"
+#include "time/quantity_motion.h"
 
 namespace mortier {
 namespace {
@@ -14,39 +14,32 @@ namespace {
 /// Of directions, and of jumps that are one.
 constexpr double roundingOfGoals = 1e-9;
 
+Point directionAt(const Quantity& quantity, const Point& x) {
+  return motionAt(quantity, {x.x(), x.y(), 0}).head<2>();
+}
+
 /// Boundary values of z: -e in the directions that the supports of the label hold. \returns why they are
 /// none of a continuous displacement that is linear on sides; empty where they are
-std::string reactionValues(const Functional& functional, const Body& body, Vector& z) {
+std::string reactionValues(const Quantity& quantity, const Body& body, Vector& z) {
   const TriangleMesh& mesh = body.mesh();
-  const auto& conditions = body.conditions().displacements;
-  std::vector<std::vector<Point>> heldAt(body.nodes());
-  for (const NodeSupport& support : body.supports().nodes()) {
-    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
-    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
-    // r = sum of shares along the directions: rows of the inverse pick them.
-    const Eigen::Matrix2d shares =
-        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
-    const Point e = functional.at(mesh.vertices[support.node]);
-    for (int i = 0; i < support.count; ++i)
-      if (conditions[support.conditions[i]].label == functional.label)
-        z.segment<2>(2 * support.node) -= support.directions[i].dot(e) * shares.row(i).transpose();
-  }
+  z = -reactionMotion(quantity, body);
   double size = 0;
   for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k)
-    if (mesh.boundaryLabels[k] == functional.label)
-      for (const int v : mesh.boundaryEdges[k]) size = std::max(size, functional.at(mesh.vertices[v]).norm());
+    if (mesh.boundaryLabels[k] == quantity.label)
+      for (const int v : mesh.boundaryEdges[k])
+        size = std::max(size, directionAt(quantity, mesh.vertices[v]).norm());
   for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k) {
-    const bool own = mesh.boundaryLabels[k] == functional.label;
+    const bool own = mesh.boundaryLabels[k] == quantity.label;
     const auto& [a, b] = mesh.boundaryEdges[k];
     const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
-    for (const PrescribedDisplacement& held : conditions) {
+    for (const PrescribedDisplacement& held : body.conditions().displacements) {
       if (held.label != mesh.boundaryLabels[k]) continue;
       const Point d = held.component == Component::alongX        ? Point(1, 0)
                       : held.component == Component::alongY      ? Point(0, 1)
                       : held.component == Component::alongNormal ? Point(along.y(), -along.x())
                                                                  : along;
       for (const int v : {a, b}) {
-        const double expected = own ? -d.dot(functional.at(mesh.vertices[v])) : 0;
+        const double expected = own ? -d.dot(directionAt(quantity, mesh.vertices[v])) : 0;
         if (std::abs(d.dot(z.segment<2>(2 * v)) - expected) > roundingOfGoals * size)
           return "another support holds the body in the same direction where its own ends";
       }
@@ -56,7 +49,7 @@ std::string reactionValues(const Functional& functional, const Body& body, Vecto
 }
 
 /// r = e . (inward normal) on the sides of contact with the label. \returns what is wrong with it
-std::string weigh(const Admissible& pair, const Functional& functional, Vector& r) {
+std::string weigh(const Admissible& pair, const Quantity& quantity, Vector& r) {
   std::vector<char> seen(pair.lifting.facing.size(), 0);
   for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
     const MatchedPiece& piece = pair.meshes.pieces[k];
@@ -65,9 +58,9 @@ std::string weigh(const Admissible& pair, const Functional& functional, Vector& 
       double value = 0;
       for (int side = 0; side < 2; ++side) {
         const ContactSide& at = side == 0 ? nonmortar : mortar;
-        if (at.body != functional.body || at.label != functional.label) continue;
+        if (at.body != quantity.body || at.label != quantity.label) continue;
         const Point& x = pair.bodies[at.body].mesh().vertices[piece.vertices[side][end]];
-        value += (side == 0 ? -1 : 1) * piece.normal.dot(functional.at(x));
+        value += (side == 0 ? -1 : 1) * piece.normal.dot(directionAt(quantity, x));
       }
       const int i = pair.lifting.facingOfPiece[k][end];
       if (std::exchange(seen[i], 1) != 0 &&
@@ -80,21 +73,21 @@ std::string weigh(const Admissible& pair, const Functional& functional, Vector& 
 }
 
 /// r of a part of the line: at a vertex the least, or the largest, of what each piece there allows.
-void weighPart(const Admissible& pair, const Functional& functional, BoundSide side, Vector& r) {
+void weighPart(const Admissible& pair, const Quantity& quantity, BoundSide side, Vector& r) {
   std::vector<char> seen(pair.lifting.facing.size(), 0);
-  const std::vector<Point>& places = pair.bodies[functional.body].mesh().vertices;
-  const double size = functional.part->size();
+  const std::vector<Point>& places = pair.bodies[quantity.body].mesh().vertices;
+  const double size = quantity.part->size();
   for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
     const MatchedPiece& piece = pair.meshes.pieces[k];
     const auto& [nonmortar, mortar, coupling] = pair.model.interfaces[piece.interface].pair();
     std::array<double, 2> values{};
     for (int of = 0; of < 2; ++of) {
       const ContactSide& at = of == 0 ? nonmortar : mortar;
-      if (at.body != functional.body || at.label != functional.label) continue;
-      const double first = functional.part->along(places[piece.vertices[of][0]]);
-      const double last = functional.part->along(places[piece.vertices[of][1]]);
-      values = side == BoundSide::below ? functional.part->below(first, last)
-                                        : functional.part->above(first, last);
+      if (at.body != quantity.body || at.label != quantity.label) continue;
+      const double first = quantity.part->along(places[piece.vertices[of][0]]);
+      const double last = quantity.part->along(places[piece.vertices[of][1]]);
+      values =
+          side == BoundSide::below ? quantity.part->below(first, last) : quantity.part->above(first, last);
     }
     for (int end = 0; end < 2; ++end) {
       const int i = pair.lifting.facingOfPiece[k][end];
@@ -123,38 +116,38 @@ int triangleAt(const TriangleMesh& mesh, const Point& x) {
 
 }  // namespace
 
-Goal goalOf(const Admissible& pair, const Functional& functional, BoundSide side) {
+Goal goalOf(const Admissible& pair, const Quantity& quantity, BoundSide side) {
   Goal goal;
   for (const LoadedBody& body : pair.bodies) {
     goal.held.emplace_back(Vector::Zero(body.body().dofs()));
     goal.loads.emplace_back(Vector::Zero(body.body().dofs()));
   }
   goal.r = Vector::Zero(static_cast<Eigen::Index>(pair.lifting.facing.size()));
-  const LoadedBody& body = pair.bodies[functional.body];
-  if (functional.kind == Functional::Kind::reaction) {
-    goal.obstacle = reactionValues(functional, body.body(), goal.held[functional.body]);
-  } else if (functional.kind == Functional::Kind::contactForce) {
-    goal.obstacle = weigh(pair, functional, goal.r);
-  } else if (functional.kind == Functional::Kind::meanPressure) {
-    weighPart(pair, functional, side, goal.r);
-  } else if (functional.point) {
-    goal.triangle = triangleAt(body.mesh(), *functional.point);
+  const LoadedBody& body = pair.bodies[quantity.body];
+  if (quantity.kind == Quantity::Kind::reaction) {
+    goal.obstacle = reactionValues(quantity, body.body(), goal.held[quantity.body]);
+  } else if (quantity.kind == Quantity::Kind::contactForce) {
+    goal.obstacle = weigh(pair, quantity, goal.r);
+  } else if (quantity.kind == Quantity::Kind::meanPressure) {
+    weighPart(pair, quantity, side, goal.r);
+  } else if (quantity.point) {
+    goal.triangle = triangleAt(body.mesh(), *quantity.point);
     if (goal.triangle < 0) {
       goal.obstacle = "the point is in no triangle";
       return goal;
     }
-    goal.force = functional.direction / body.body().weights()[goal.triangle];
-    LoadedBody pushed = body.unloaded(goal.held[functional.body]);
+    goal.force = directionAt(quantity, Point::Zero()) / body.body().weights()[goal.triangle];
+    LoadedBody pushed = body.unloaded(goal.held[quantity.body]);
     pushed.push(goal.triangle, goal.force);
-    goal.loads[functional.body] = pushed.load();
+    goal.loads[quantity.body] = pushed.load();
   } else {
     double length = 0;
-    for (const auto& [a, b] : edgesOn(body.mesh(), functional.label))
+    for (const auto& [a, b] : edgesOn(body.mesh(), quantity.label))
       length += (body.mesh().vertices[b] - body.mesh().vertices[a]).norm();
-    goal.traction = functional.direction / length;
-    LoadedBody pulled = body.unloaded(goal.held[functional.body]);
-    pulled.pull(functional.label, goal.traction);
-    goal.loads[functional.body] = pulled.load();
+    goal.traction = directionAt(quantity, Point::Zero()) / length;
+    LoadedBody pulled = body.unloaded(goal.held[quantity.body]);
+    pulled.pull(quantity.label, goal.traction);
+    goal.loads[quantity.body] = pulled.load();
   }
   return goal;
 }

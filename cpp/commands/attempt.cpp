@@ -81,28 +81,6 @@ Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) 
 
 namespace {
 
-/// A quantity as a bound takes it.
-Functional functionalOf(const Quantity& quantity, const std::optional<Point>& point) {
-  using Kind = Functional::Kind;
-  Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction
-                    : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
-                    : quantity.kind == Quantity::Kind::meanPressure ? Kind::meanPressure
-                                                                    : Kind::displacement,
-                    quantity.body, quantity.label};
-  result.part = quantity.part;
-  if (!hasComponent(quantity.kind) && !quantity.part)
-    result.obstacle = "only forces, mean displacements and mean pressures have one";
-  if (isMoment(quantity.component)) {
-    result.turn = 1;
-    result.about = quantity.about.head<2>();
-  } else {
-    result.direction = Point::Unit(quantity.component == Quantity::Component::x ? 0 : 1);
-  }
-  if (point && quantity.kind == Quantity::Kind::displacement) result.point = point;
-  if (point && quantity.kind == Quantity::Kind::reaction) result.obstacle = "forces at a point have none";
-  return result;
-}
-
 /// Nothing that is not finite may end the run: it is no bound.
 void requireFinite(std::initializer_list<double> numbers, std::string& obstacle) {
   if (!std::all_of(numbers.begin(), numbers.end(), [](double each) { return std::isfinite(each); }))
@@ -124,11 +102,7 @@ EnergyBound boundOf(const Attempt& attempt) {
   EnergyBound bound;
   try {
     const std::vector<Quantity>& quantities = attempt.facts.quantities;
-    std::vector<Functional> functionals;
-    functionals.reserve(quantities.size());
-    for (size_t i = 0; i < quantities.size(); ++i)
-      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point));
-    bound = energyBound(*attempt.model, attempt.solved.state, functionals);
+    bound = energyBound(*attempt.model, attempt.solved.state, quantities);
     for (size_t i = 0; i < quantities.size(); ++i)
       if (quantities[i].kind == Quantity::Kind::largestPressure)
         bound.quantities[i].estimate =

@@ -13,20 +13,14 @@ namespace {
 
 using Monomials = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-Monomials termsOf(double s, int degree) {
-  Monomials terms(degree + 1);
-  for (int k = 0; k <= degree; ++k) terms[k] = k == 0 ? 1 : terms[k - 1] * (2 * s - 1);
-  return terms;
-}
 Monomials termsOf(const std::array<double, 3>& b, int degree) {
   if (degree == 0) return Monomials::Ones(1);
   if (degree == 1) return Monomials{{b[0], b[1], b[2]}};
   return Monomials{{b[0] * b[0], b[1] * b[1], b[2] * b[2], b[0] * b[1], b[1] * b[2], b[2] * b[0]}};
 }
 
-template <class Place>
-Eigen::VectorXd projectionOf(const Resolved<Place>& resolved, int degree) {
-  const auto count = static_cast<Eigen::Index>(termsOf(Place{}, degree).size());
+Eigen::VectorXd projectionOf(const ResolvedTriangle& resolved, int degree) {
+  const auto count = static_cast<Eigen::Index>(termsOf({}, degree).size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   for (const auto& [at, weight, value] : resolved.samples) {
@@ -38,24 +32,13 @@ Eigen::VectorXd projectionOf(const Resolved<Place>& resolved, int degree) {
 }
 
 template <class Place>
-std::vector<double> offProjection(const Resolved<Place>& resolved, int degree) {
-  const Eigen::VectorXd factors = projectionOf(resolved, degree);
-  std::vector<double> off;
-  for (const auto& [at, weight, value] : resolved.samples)
-    off.push_back(value - factors.dot(termsOf(at, degree)));
-  return off;
-}
-
-template <class Place>
 Misfit misfitOf(const Resolved<Place>& resolved, const std::vector<double>& w) {
   Misfit result;
   for (size_t i = 0; i < w.size(); ++i) {
     const auto& [at, weight, value] = resolved.samples[i];
     result.square += weight * w[i] * w[i];
-    result.size += weight * value * value;
     result.most = std::max(result.most, std::abs(w[i]));
   }
-  result.uncertain = resolved.uncertain;
   return result;
 }
 
@@ -82,8 +65,8 @@ double minusHalfNorm(const ResolvedEdge& edge, const std::vector<double>& w, con
   return std::min(all, sum + std::sqrt(std::max(0.0, square) * std::max(0.0, primitive)));
 }
 
-/// With what is known of a function along an edge by its samples in order.
-Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool zeroAtEnds) {
+/// With what is known of a function that is 0 at the ends of an edge by its samples in order.
+Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w) {
   Misfit result = misfitOf(edge, w);
   double before = 0;
   double meanPrimitive = 0;
@@ -94,12 +77,12 @@ Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool ze
     meanPrimitive += part * primitive;
     before += part * w[i];
     const double from = i > 0 ? edge.samples[i - 1].at : 0;
-    const double change = i > 0 ? w[i] - w[i - 1] : zeroAtEnds ? w[i] : 0;
+    const double change = i > 0 ? w[i] - w[i - 1] : w[i];
     if (edge.samples[i].at > from) result.slope += change * change / (edge.samples[i].at - from);
   }
   result.primitive = std::max(0.0, result.primitive - meanPrimitive * meanPrimitive);
   result.minusHalf = minusHalfNorm(edge, w, result);
-  if (zeroAtEnds && !w.empty() && edge.samples.back().at < 1)
+  if (!w.empty() && edge.samples.back().at < 1)
     result.slope += w.back() * w.back() / (1 - edge.samples.back().at);
   return result;
 }
@@ -153,26 +136,6 @@ ResolvedTriangle onTriangle(const Datum& datum, const std::vector<Point>& nodes,
   });
 }
 
-std::array<double, 2> linearMoments(const ResolvedEdge& edge) {
-  std::array<double, 2> moments{0, 0};
-  for (const auto& [at, weight, value] : edge.samples) {
-    moments[0] += weight * value * (1 - at);
-    moments[1] += weight * value * at;
-  }
-  return moments;
-}
-
-double mean(const ResolvedEdge& edge) {
-  const auto [first, second] = linearMoments(edge);
-  return first + second;
-}
-
-double mean(const ResolvedTriangle& triangle) {
-  double sum = 0;
-  for (const auto& sample : triangle.samples) sum += sample.weight * sample.value;
-  return sum;
-}
-
 std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
                                const std::vector<std::array<double, 3>>& places) {
   const Eigen::VectorXd factors = projectionOf(triangle, degree);
@@ -181,12 +144,12 @@ std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
   return values;
 }
 
-Misfit misfit(const ResolvedEdge& edge, int degree) {
-  return alongEdge(edge, offProjection(edge, degree), false);
-}
-
 Misfit misfit(const ResolvedTriangle& triangle, int degree) {
-  return misfitOf(triangle, offProjection(triangle, degree));
+  const Eigen::VectorXd factors = projectionOf(triangle, degree);
+  std::vector<double> off;
+  for (const auto& [at, weight, value] : triangle.samples)
+    off.push_back(value - factors.dot(termsOf(at, degree)));
+  return misfitOf(triangle, off);
 }
 
 std::vector<std::array<double, 3>> lineProjection(const std::vector<LineEdge>& edges, int degree) {
@@ -247,7 +210,7 @@ Misfit interpolationMisfit(const ResolvedEdge& edge, const std::array<double, 3>
     for (Eigen::Index k = 0; k < shapes.size(); ++k) interpolant += shapes[k] * values[k];
     w.push_back(value - interpolant);
   }
-  return alongEdge(edge, w, true);
+  return alongEdge(edge, w);
 }
 
 }  // namespace mortier

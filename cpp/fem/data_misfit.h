@@ -15,12 +15,6 @@ ResolvedEdge onEdge(const Datum& datum, const std::vector<Point>& nodes, double 
 /// The same on a triangle. \param nodes  of the element: 3, or 6
 ResolvedTriangle onTriangle(const Datum& datum, const std::vector<Point>& nodes, double t);
 
-/// Integrals of the datum times the linear functions that are 1 at the first and at the second end, over the
-/// length.
-std::array<double, 2> linearMoments(const ResolvedEdge& edge);
-double mean(const ResolvedEdge& edge);
-double mean(const ResolvedTriangle& triangle);
-
 /// The L2 projection onto polynomials of a degree (0, 1, 2) at some places.
 std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
                                const std::vector<std::array<double, 3>>& places);
@@ -29,17 +23,13 @@ std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
 /// integrals are of an edge or triangle of measure 1; by length or area they are those of the real one.
 struct Misfit {
   double square = 0;     ///< integral of w^2
-  double size = 0;       ///< integral of f^2
   double most = 0;       ///< largest |w| at a sample
   double primitive = 0;  ///< edges: integral of W^2, W' = w, the mean of W being 0; by length^3
   double minusHalf = 0;  ///< edges: |w|^2 of order -1/2, that is |W| |w| of each wave in w; by length^2
   double slope = 0;      ///< edges: integral of w'^2; over the length. Infinite where w jumps
-  double uncertain = 0;  ///< mean of |w| beyond that at the samples: sqrt(square) may be that much larger,
-                         ///< times (largest |f| over its mean)^(1/2)
 };
 
 /// w of the L2 projection onto polynomials of a degree (0, 1, 2).
-Misfit misfit(const ResolvedEdge& edge, int degree);
 Misfit misfit(const ResolvedTriangle& triangle, int degree);
 /// An edge of a line: a datum on it, its nodes (both ends, of a quadratic one the middle) and its length.
 struct LineEdge {

@@ -2,162 +2,373 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
-#include <utility>
 #include <vector>
 
+#include "base/dense_templates.h"
 #include "base/parallel.h"
 #include "fem/element.h"
+#include "fem/tetrahedron.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
-namespace {
 
-/// The triangles around each vertex.
-class Neighbours {
+class ErrorEstimator::Recovery {
  public:
-  explicit Neighbours(const TriangleMesh& mesh) : first_(mesh.vertices.size() + 1, 0) {
-    for (const auto& triangle : mesh.triangles)
-      for (const int vertex : triangle) ++first_[vertex + 1];
-    for (size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    triangles_.resize(3 * mesh.triangles.size());
-    std::vector<int> next(first_.begin(), first_.end() - 1);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (const int vertex : mesh.triangles[t]) triangles_[next[vertex]++] = static_cast<int>(t);
-  }
-  /// Calls visit(triangle).
-  template <class Visit>
-  void of(int vertex, Visit visit) const {
-    for (int i = first_[vertex]; i < first_[vertex + 1]; ++i) visit(triangles_[i]);
-  }
-
- private:
-  std::vector<int> first_;
-  std::vector<int> triangles_;
+  virtual ~Recovery() = default;
+  [[nodiscard]] virtual ErrorEstimate estimate(const Matrix& stress, Threads& threads) const = 0;
+  [[nodiscard]] virtual Matrix recovered(const Matrix& stress, Threads& threads) const = 0;
 };
 
-/// Coefficients of a fit that are needed: linear ones are evaluated at their vertices only.
-template <class Element>
-constexpr int keptTerms = Element::nodes == 3 ? 1 : Element::nodes;
+namespace {
 
+/// Of a field that is f_a at the nodes of an element: its square, integrated, is the measure of the element
+/// times the sum of those of its modes sum_a f_a N_am.
 template <class Element>
-using Terms = Eigen::Matrix<double, Element::nodes, 1>;
+using Modes = Eigen::Matrix<double, Element::nodes, Element::nodes>;
 
-/// The terms of a polynomial at a distance from the vertex of a fit, over its size.
+/// Modes are values at the points of a rule in the plane, where these are at different radii, and those of
+/// the mass matrix N N' in space.
 template <class Element>
-Terms<Element> termsAt(const Point& x) {
-  Terms<Element> result;
-  if constexpr (Element::nodes == 3)
-    result << 1, x.x(), x.y();
-  else
-    result << 1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y();
-  return result;
-}
-
-/// The radius at a place of a triangle over its mean: by that its weights are to be multiplied.
-double radiusOverMean(const Body& body, Eigen::Index triangle, const Barycentric& place) {
-  const auto& corners = body.mesh().triangles[triangle];
-  double radius = 0;
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double corner = body.mesh().vertices[corners[k]].x();
-    radius += place[k] * corner;
-    sum += corner;
+Modes<Element> modesOf() {
+  Modes<Element> modes = Modes<Element>::Zero();
+  const auto shapesAt = [](const auto& b) {
+    return Eigen::Vector<double, Element::nodes>(Element::shapes(b).data());
+  };
+  if constexpr (Element::interior[0].size() == 3) {
+    constexpr auto rule = Element::loadRule();
+    for (size_t m = 0; m < rule.size(); ++m) {
+      const auto& [at, toNode] = rule[m];
+      const double weight = std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
+      modes.col(static_cast<Eigen::Index>(m)) = std::sqrt(weight) * shapesAt(at);
+    }
+  } else {
+    Matrix mass = Matrix::Zero(Element::nodes, Element::nodes);
+    for (const auto& [at, weight] : tetrahedronRule()) {
+      const auto N = shapesAt(SpaceBarycentric{1 - at.sum(), at.x(), at.y(), at.z()});
+      mass += 6 * weight * N * N.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(mass);
+    modes = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
   }
-  return 3 * radius / sum;
+  return modes;
 }
 
-/// Fits: polynomials of the degree of the displacements to the stresses at the points of the element.
+/// The stress at a vertex is that of a polynomial of the degree of the displacements, fitted by least squares
+/// to the points of the elements of one region around it; at the middle of a side it is the mean of what both
+/// ends say. Quadratic fits count a point by the inverse square of its distance from the vertex: on meshes
+/// that are graded towards an unbounded stress, points that are far off would have as much to say as those
+/// nearby.
 template <class Element>
-class Fits {
+class Fitted final : public ErrorEstimator::Recovery {
  public:
-  /// \param samples  places of the points, triangle by triangle
-  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Point>& samples)
-      : mesh_(mesh), neighbours_(neighbours), samples_(samples) {}
+  static constexpr int corners = static_cast<int>(Element::interior[0].size());
+  static constexpr int dimension = corners - 1;
+  static constexpr int nodes = Element::nodes;
+  static constexpr int each = Element::points;
+  using Place = Eigen::Vector<double, dimension>;
+  /// The first components: what a law in space remembers is no error.
+  using Stress = Eigen::Vector<double, 6>;
+  using Stresses = Eigen::Matrix<double, 6, nodes>;
 
-  /// The fit to the points of a region around a vertex, by least squares; their mean where they do not
-  /// determine the polynomial. Where they lie to one side, those of the next ring count too. Quadratic ones
-  /// count a point by the inverse square of its distance from the vertex: on meshes that are graded towards
-  /// an unbounded stress, points that are far off would have as much to say as those nearby.
-  /// Appends the points, and for each its weights in the coefficients that are needed. \returns the size [m].
-  double operator()(int vertex, int region, std::vector<int>& points, std::vector<double>& weights) {
-    constexpr int terms = Element::nodes;
-    constexpr int kept = keptTerms<Element>;
-    constexpr double degenerate = 1e-10;
-    region_ = region;
-    choosePatch(vertex);
-    const Point& centre = mesh_.vertices[vertex];
-    double size = 0;
-    forEachSample([&](int i) { size = std::max(size, (samples_[i] - centre).squaredNorm()); });
-    size = std::sqrt(size);
-    basis_.clear();
-    Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
-    forEachSample([&](int i) {
-      basis_.push_back(termsAt<Element>((samples_[i] - centre) / size));
-      normal += countOf(i, centre, size) * basis_.back() * basis_.back().transpose();
+  explicit Fitted(const Body& body) : body_(body), samples_(dimension, body.points()) {
+    if (body.rigid()) return;
+    for (int i = 0; i < body.points(); ++i) samples_.col(i) = body.placeOfPoint(i).head<dimension>();
+    findPlaces();
+    findPatches();
+  }
+
+  [[nodiscard]] Matrix recovered(const Matrix& stress, Threads& threads) const override {
+    return recover(stress, threads)(Eigen::seqN(0, used(stress)), placeOf_);
+  }
+
+  /// Laws take stress points alone: modes take their place, some at a time.
+  [[nodiscard]] ErrorEstimate estimate(const Matrix& stress, Threads& threads) const override {
+    if (body_.rigid()) return {Vector::Zero(static_cast<Eigen::Index>(body_.elements())), 0};
+    const Eigen::Matrix<double, 6, Eigen::Dynamic> recovered = recover(stress, threads);
+    const Eigen::Index own = used(stress);
+    const Modes<Element> N = modesOf<Element>();
+    const Eigen::Matrix<double, each, nodes> ofPoints = pointsToNodes().lazyProduct(N);
+    const auto count = static_cast<int>(body_.elements());
+    ErrorEstimate result{Vector::Zero(count), 0};
+    Vector energies = Vector::Zero(count);
+    Matrix field = Matrix::Zero(stress.rows(), stress.cols());
+    Matrix strain(stress.rows(), stress.cols());
+    forEachBlock(count, threads, [&](int begin, int end) {
+      std::vector<Stresses> modes(end - begin);
+      const auto addEnergies = [&](Vector& sums) {
+        for (int first = 0; first < nodes; first += each) {
+          const int some = std::min(each, nodes - first);
+          for (int e = begin; e < end; ++e)
+            for (int m = 0; m < some; ++m)
+              field.col(each * e + m).head(own) = modes[e - begin].col(first + m).head(own);
+          body_.material().elasticStrain(field, strain, each * begin, each * end);
+          for (int e = begin; e < end; ++e)
+            for (int m = 0; m < some; ++m)
+              sums[e] += measureAt(e, first + m) * field.col(each * e + m).dot(strain.col(each * e + m));
+        }
+      };
+      for (int e = begin; e < end; ++e) {
+        Stresses atNodes;
+        for (int a = 0; a < nodes; ++a) atNodes.col(a) = recovered.col(placeOf_[nodes * e + a]);
+        modes[e - begin] = atNodes.lazyProduct(N);
+      }
+      addEnergies(energies);
+      for (int e = begin; e < end; ++e)
+        modes[e - begin].topRows(own) -= stress.middleCols<each>(each * e).topRows(own).lazyProduct(ofPoints);
+      addEnergies(result.error);
     });
-    const auto n = static_cast<double>(basis_.size());
-    const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factor(normal);
-    const bool determined = factor.vectorD().minCoeff() >= degenerate * normal(0, 0);
-    Eigen::Matrix<double, terms, kept> rows;
-    for (int term = 0; term < kept; ++term) rows.col(term) = factor.solve(Terms<Element>::Unit(term));
-    size_t k = 0;
-    forEachSample([&](int i) {
-      points.push_back(i);
-      for (int term = 0; term < kept; ++term)
-        weights.push_back(determined  ? countOf(i, centre, size) * rows.col(term).dot(basis_[k])
-                          : term == 0 ? 1 / n
-                                      : 0);
-      ++k;
-    });
-    return size;
+    result.energy = std::accumulate(energies.begin(), energies.end(), 0.0);
+    return result;
   }
 
  private:
-  void choosePatch(int vertex) {
-    patch_.clear();
-    addAround(vertex);
-    if (closed()) return;
-    const std::vector<int> inner = patch_;
-    for (const int triangle : inner)
-      for (const int other : mesh_.triangles[triangle]) addAround(other);
-    std::sort(patch_.begin(), patch_.end());
-    patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
+  struct Fit {
+    Place centre;
+    double size = 0;
+    Stresses coefficients;
+    [[nodiscard]] Stress valueAt(const Place& x) const { return coefficients * termsAt((x - centre) / size); }
+  };
+
+  /// What a fit has beside the stress.
+  struct Patch {
+    Place centre;
+    double size = 0;
+    Modes<Element> inverse;  ///< of its normal matrix
+    bool determined = false;
+  };
+  /// Nearly dependent terms are left out, in the plane all but a constant.
+  static constexpr double dependent = dimension == 3 ? 1e-2 : 1e-5;
+
+  static Eigen::Index used(const Matrix& stress) { return std::min<Eigen::Index>(6, stress.rows()); }
+
+  /// 1, the coordinates and, for degree 2, their squares and products.
+  static Eigen::Vector<double, nodes> termsAt(const Place& x) {
+    Eigen::Vector<double, nodes> terms;
+    terms[0] = 1;
+    terms.template segment<dimension>(1) = x;
+    if constexpr (each > 1) {
+      terms.template segment<dimension>(corners) = x.cwiseAbs2();
+      for (int k = corners + dimension, i = 0; k < nodes; ++k, ++i) terms[k] = x[i] * x[(i + 1) % dimension];
+    }
+    return terms;
   }
 
-  void addAround(int vertex) {
-    neighbours_.of(vertex, [&](int t) {
-      if (mesh_.regions[t] == region_) patch_.push_back(t);
+  /// Columns: the shape functions of the stress of an element at its nodes.
+  static Eigen::Matrix<double, each, nodes> pointsToNodes() {
+    Eigen::Matrix<double, each, nodes> at = Eigen::Matrix<double, each, nodes>::Ones();
+    if constexpr (each > 1) {
+      constexpr double far = Element::interior[0][1];
+      at.setZero();
+      at.template leftCols<corners>().setIdentity();
+      for (int k = corners; k < nodes; ++k)
+        for (const int end : sidesOfTetrahedron[k - corners]) at(end, k) = 0.5;
+      at = ((at.array() - far) / (Element::interior[0][0] - far)).matrix().eval();
+    }
+    return at;
+  }
+
+  [[nodiscard]] const auto& mesh() const {
+    if constexpr (dimension == 3)
+      return body_.space()->mesh();
+    else
+      return body_.mesh();
+  }
+  [[nodiscard]] const int* nodesOf(size_t element) const {
+    if constexpr (dimension == 3)
+      return body_.space()->nodes().of(element);
+    else
+      return body_.elementNodes().of(element);
+  }
+  [[nodiscard]] Place placeOf(int node) const { return body_.placeOfNode(node).head<dimension>(); }
+
+  /// Of an element; what a mode of a ring has of it goes with the radius.
+  [[nodiscard]] double measureAt(int element, int mode) const {
+    double measure = 0;
+    for (int i = 0; i < each; ++i) measure += body_.weights()[each * element + i];
+    if constexpr (dimension == 2)
+      if (body_.axisymmetric()) {
+        const auto at = Element::loadRule()[mode].at;
+        double radius = 0;
+        double sum = 0;
+        for (int k = 0; k < corners; ++k) {
+          const double corner = mesh().vertices[mesh().triangles[element][k]].x();
+          radius += at[k] * corner;
+          sum += corner;
+        }
+        measure *= corners * radius / sum;
+      }
+    return measure;
+  }
+
+  /// Numbers the nodes once for each region they are in: vertices, then middles.
+  void findPlaces() {
+    const std::vector<int>& regions = mesh().regions;
+    std::vector<int> order(body_.elements());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return regions[a] < regions[b]; });
+    placeOf_.resize(nodes * order.size());
+    std::vector<int> last(body_.nodes(), -1);  // place of a node in the region it was met in last
+    for (const bool middles : {false, true}) {
+      for (const int e : order)
+        for (int k = middles ? corners : 0; k < (middles ? nodes : corners); ++k) {
+          int* own = &placeOf_[static_cast<size_t>(nodes) * e];
+          const int node = nodesOf(e)[k];
+          if (last[node] < 0 || regionOf_[last[node]] != regions[e]) {
+            last[node] = static_cast<int>(nodeOf_.size());
+            nodeOf_.push_back(node);
+            regionOf_.push_back(regions[e]);
+            if (middles)
+              ends_.push_back(
+                  {own[sidesOfTetrahedron[k - corners][0]], own[sidesOfTetrahedron[k - corners][1]]});
+          }
+          own[k] = last[node];
+        }
+    }
+  }
+
+  /// By places.
+  [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> recover(const Matrix& stress,
+                                                                 Threads& threads) const {
+    const auto middles = static_cast<int>(ends_.size());
+    const int vertices = static_cast<int>(nodeOf_.size()) - middles;
+    Eigen::Matrix<double, 6, Eigen::Dynamic> result(6, vertices + middles);
+    std::vector<Fit> fits(vertices);
+    forEachBlock(vertices, threads, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        fits[i] = fitted(i, stress);
+        result.col(i) = fits[i].coefficients.col(0);
+      }
     });
+    forEachBlock(middles, threads, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        const Place middle = placeOf(nodeOf_[vertices + i]);
+        result.col(vertices + i) =
+            (fits[ends_[i][0]].valueAt(middle) + fits[ends_[i][1]].valueAt(middle)) / 2;
+      }
+    });
+    return result;
   }
 
-  /// Whether the triangles lie all around: then they have as many corners besides as there are triangles.
-  bool closed() {
-    corners_.clear();
-    for (const int t : patch_)
-      corners_.insert(corners_.end(), mesh_.triangles[t].begin(), mesh_.triangles[t].end());
-    std::sort(corners_.begin(), corners_.end());
-    const auto end = std::unique(corners_.begin(), corners_.end());
-    return end - corners_.begin() == static_cast<std::ptrdiff_t>(patch_.size()) + 1;
+  /// The elements of a region around a vertex and, where they are too few or lie to one side, around those
+  /// beside it.
+  void findPatches() {
+    const auto& all = elementsOf(mesh());
+    std::vector<int> start(mesh().vertices.size() + 1, 0);
+    for (const auto& element : all)
+      for (const int v : element) ++start[v + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<int> around(start.back());
+    std::vector<int> next(start.begin(), start.end() - 1);
+    for (size_t e = 0; e < all.size(); ++e)
+      for (const int v : all[e]) around[next[v]++] = static_cast<int>(e);
+    std::vector<int> elements;
+    for (size_t i = 0; i < nodeOf_.size() - ends_.size(); ++i) {
+      const auto add = [&](int vertex) {
+        for (int k = start[vertex]; k < start[vertex + 1]; ++k)
+          if (mesh().regions[around[k]] == regionOf_[i]) elements.push_back(around[k]);
+      };
+      elements.clear();
+      add(nodeOf_[i]);
+      for (int rings = 1; rings < dimension && !suffice(elements); ++rings) {
+        const std::vector<int> inner = elements;
+        for (const int e : inner)
+          for (const int v : all[e]) add(v);
+        std::sort(elements.begin(), elements.end());
+        elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+      }
+      patches_.insert(patches_.end(), elements.begin(), elements.end());
+      patchStart_.push_back(patches_.size());
+      of_.push_back(patchAround(static_cast<int>(i)));
+    }
   }
 
+  [[nodiscard]] bool suffice(const std::vector<int>& elements) const {
+    if constexpr (dimension == 3) {
+      return elements.size() >= (each == 1 ? 8 : 6);
+    } else {  // all around: they have as many corners besides as there are triangles
+      std::vector<int> all;
+      for (const int t : elements)
+        all.insert(all.end(), mesh().triangles[t].begin(), mesh().triangles[t].end());
+      std::sort(all.begin(), all.end());
+      return std::unique(all.begin(), all.end()) - all.begin() ==
+             static_cast<std::ptrdiff_t>(elements.size()) + 1;
+    }
+  }
+
+  /// Calls visit(weight, terms, point) for the points that a fit is made to.
   template <class Visit>
-  void forEachSample(Visit visit) const {
-    for (const int t : patch_)
-      for (int i = 0; i < Element::points; ++i) visit(Element::points * t + i);
+  void forEachPoint(int place, const Patch& patch, Visit visit) const {
+    for (size_t k = patchStart_[place]; k < patchStart_[place + 1]; ++k)
+      for (int i = each * patches_[k]; i < each * (patches_[k] + 1); ++i) {
+        const Place x = (samples_.col(i) - patch.centre) / patch.size;
+        visit(each == 1 ? 1 : 1 / x.squaredNorm(), termsAt(x), i);
+      }
   }
 
-  [[nodiscard]] double countOf(int sample, const Point& centre, double size) const {
-    return Element::points > 1 ? size * size / (samples_[sample] - centre).squaredNorm() : 1;
+  [[nodiscard]] Patch patchAround(int place) const {
+    Patch patch{placeOf(nodeOf_[place]), 1, Modes<Element>::Zero()};
+    double square = 0;
+    forEachPoint(place, patch, [&](double, const auto& terms, int) {
+      square = std::max(square, terms.template segment<dimension>(1).squaredNorm());
+    });
+    patch.size = std::sqrt(square);
+    Modes<Element> normal = Modes<Element>::Zero();
+    forEachPoint(place, patch, [&](double weight, const auto& terms, int) {
+      normal += weight * terms * terms.transpose();
+    });
+    const Eigen::LDLT<Modes<Element>> factor(normal);
+    patch.determined = factor.vectorD().minCoeff() >= dependent * dependent * factor.vectorD().maxCoeff();
+    if (patch.determined) patch.inverse = factor.solve(Modes<Element>::Identity());
+    return patch;
   }
 
-  const TriangleMesh& mesh_;
-  const Neighbours& neighbours_;
-  const std::vector<Point>& samples_;
-  int region_ = 0;
-  std::vector<int> patch_;
-  std::vector<int> corners_;
-  std::vector<Terms<Element>> basis_;
+  [[nodiscard]] Fit fitted(int place, const Matrix& stress) const {
+    const Patch& patch = of_[place];
+    Fit fit{patch.centre, patch.size, Stresses::Zero()};
+    const Eigen::Index own = used(stress);
+    const auto count = each * static_cast<Eigen::Index>(patchStart_[place + 1] - patchStart_[place]);
+    Stress mean = Stress::Zero();
+    for (size_t k = patchStart_[place]; k < patchStart_[place + 1]; ++k)
+      for (int i = 0; i < each; ++i) mean.head(own) += stress.col(each * patches_[k] + i).head(own);
+    mean /= static_cast<double>(count);
+    // Of the difference from a mean: where terms are left out a stress that is the same everywhere stays so.
+    Stress off = Stress::Zero();
+    if (patch.determined) {
+      Stresses right = Stresses::Zero();
+      forEachPoint(place, patch, [&](double weight, const auto& terms, int i) {
+        off.head(own) = stress.col(i).head(own) - mean.head(own);
+        right += off * (weight * terms).transpose();
+      });
+      fit.coefficients = right * patch.inverse;
+    } else if constexpr (dimension == 3) {
+      Matrix design(count, nodes);
+      Matrix values(count, 6);
+      Eigen::Index row = 0;
+      forEachPoint(place, patch, [&](double weight, const auto& terms, int i) {
+        off.head(own) = stress.col(i).head(own) - mean.head(own);
+        design.row(row) = std::sqrt(weight) * terms;
+        values.row(row++) = std::sqrt(weight) * off;
+      });
+      Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
+      solver.setThreshold(dependent);
+      solver.compute(design);
+      fit.coefficients = solver.solve(values).transpose();
+    }
+    fit.coefficients.col(0) += mean;
+    return fit;
+  }
+
+  const Body& body_;
+  Matrix samples_;                        ///< places of the points
+  std::vector<int> placeOf_;              ///< of each node of each element
+  std::vector<int> nodeOf_, regionOf_;    ///< of each place
+  std::vector<std::array<int, 2>> ends_;  ///< of the last places, which are of middles
+  std::vector<size_t> patchStart_{0};     ///< by the other places
+  std::vector<int> patches_;
+  std::vector<Patch> of_;
 };
 
 }  // namespace
@@ -166,176 +377,20 @@ double ErrorEstimate::relative() const {
   return energy > 0 ? std::sqrt(error.sum() / energy) : 0;
 }
 
-ErrorEstimator::ErrorEstimator(const Body& body, Threads& threads) : body_(body) {
-  if (body.rigid() || body.space() != nullptr) return;
-  withElement(body.degree(), [&](auto element) { recover<decltype(element)>(threads); });
-}
-
-template <class Element>
-void ErrorEstimator::recover(Threads& threads) {
-  constexpr int kept = keptTerms<Element>;
-  const TriangleMesh& mesh = body_.mesh();
-  const ElementNodes& nodes = body_.elementNodes();
-  std::vector<int> regions = mesh.regions;
-  std::sort(regions.begin(), regions.end());
-  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  recoveredAt_.resize(nodes.triangles.size());
-  // Which fits there are, and which values come of them.
-  std::vector<int> vertexOf;
-  std::vector<int> regionOf;
-  for (const int region : regions) {
-    std::vector<int> fitOf(mesh.vertices.size(), -1);
-    const auto fitAround = [&](int vertex) {
-      if (fitOf[vertex] < 0) {
-        fitOf[vertex] = static_cast<int>(vertexOf.size());
-        vertexOf.push_back(vertex);
-        regionOf.push_back(region);
-      }
-      return fitOf[vertex];
-    };
-    const auto valueOf = [&](int vertex, const Point& place) {
-      return Value{fitAround(vertex), place - mesh.vertices[vertex]};
-    };
-    std::vector<int> known(nodes.places.size(), -1);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.regions[t] != region) continue;
-      const auto& triangle = mesh.triangles[t];
-      for (int a = 0; a < Element::nodes; ++a) {
-        const int node = nodes.of(t)[a];
-        if (known[node] < 0) {
-          const Point& place = nodes.places[node];
-          if (kept == 1) {
-            known[node] = fitAround(node);
-          } else {
-            known[node] = static_cast<int>(values_.size());
-            values_.push_back(
-                {valueOf(triangle[a % 3], place), valueOf(triangle[(a < 3 ? a : a + 1) % 3], place)});
-          }
-        }
-        recoveredAt_[Element::nodes * t + a] = known[node];
-      }
-    }
-  }
-  // The fits.
-  struct Block {
-    std::vector<int> points;
-    std::vector<double> weights;
-  };
-  const Neighbours neighbours(mesh);
-  const std::vector<Point> samples = body_.places();
-  const auto fits = static_cast<int>(vertexOf.size());
-  std::vector<double> sizes(fits);
-  std::vector<Block> blocks(blocksOf(fits));
-  first_.assign(fits + 1, 0);
-  forEachBlock(fits, threads, [&](int begin, int end) {
-    Fits<Element> around(mesh, neighbours, samples);
-    auto& [points, weights] = blocks[begin / itemsOfBlock];
-    for (int fit = begin; fit < end; ++fit) {
-      const size_t before = points.size();
-      sizes[fit] = around(vertexOf[fit], regionOf[fit], points, weights);
-      first_[fit + 1] = points.size() - before;
-    }
-  });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  points_.resize(first_[fits]);
-  weights_.resize(kept * first_[fits]);
-  forEachBlock(fits, threads, [&](int begin, int /*end*/) {
-    const Block block = std::move(blocks[begin / itemsOfBlock]);
-    std::copy(block.points.begin(), block.points.end(), points_.begin() + first_[begin]);
-    std::copy(block.weights.begin(), block.weights.end(), weights_.begin() + kept * first_[begin]);
-  });
-  for (auto& values : values_)
-    for (Value& value : values) value.at /= sizes[value.fit];
+ErrorEstimator::ErrorEstimator(const Body& body) {
+  const auto make = [&](auto element) { recovery_ = std::make_shared<Fitted<decltype(element)>>(body); };
+  if (body.dimension() == 3)
+    withSpaceElement(body.degree(), make);
+  else
+    withElement(body.degree(), make);
 }
 
 ErrorEstimate ErrorEstimator::operator()(const Matrix& stress, Threads& threads) const {
-  if (body_.space() != nullptr) return estimateInSpace(body_, stress, threads);
-  if (body_.rigid()) return {Vector::Zero(static_cast<Eigen::Index>(body_.mesh().triangles.size())), 0};
-  return withElement(body_.degree(),
-                     [&](auto element) { return estimate<decltype(element)>(stress, threads); });
-}
-
-template <class Element>
-Matrix ErrorEstimator::recoveredStress(const Matrix& stress, Threads& threads) const {
-  constexpr int kept = keptTerms<Element>;
-  const auto fits = static_cast<int>(first_.size()) - 1;
-  Matrix coefficients(stress.rows(), kept * static_cast<Eigen::Index>(fits));
-  forEachBlock(fits, threads, [&](int begin, int end) {
-    coefficients.middleCols(kept * begin, kept * (end - begin)).setZero();
-    for (int fit = begin; fit < end; ++fit)
-      for (size_t k = first_[fit]; k < first_[fit + 1]; ++k)
-        for (int term = 0; term < kept; ++term)
-          coefficients.col(kept * fit + term) += weights_[kept * k + term] * stress.col(points_[k]);
-  });
-  if constexpr (kept == 1) {
-    return coefficients;
-  } else {
-    const auto values = static_cast<int>(values_.size());
-    Matrix recovered(stress.rows(), values);
-    forEachBlock(values, threads, [&](int begin, int end) {
-      recovered.middleCols(begin, end - begin).setZero();
-      for (int i = begin; i < end; ++i)
-        for (const Value& value : values_[i])
-          recovered.col(i) +=
-              coefficients.middleCols<kept>(kept * value.fit) * termsAt<Element>(value.at) / 2;
-    });
-    return recovered;
-  }
+  return recovery_->estimate(stress, threads);
 }
 
 Matrix ErrorEstimator::recovered(const Matrix& stress, Threads& threads) const {
-  if (body_.space() != nullptr) return recoveredInSpace(body_, stress, threads);
-  return withElement(body_.degree(), [&](auto element) {
-    return Matrix(recoveredStress<decltype(element)>(stress, threads)(Eigen::all, recoveredAt_));
-  });
-}
-
-template <class Element>
-ErrorEstimate ErrorEstimator::estimate(const Matrix& stress, Threads& threads) const {
-  constexpr int n = Element::points;
-  constexpr auto rule = Element::loadRule();
-  const Matrix recovered = recoveredStress<Element>(stress, threads);
-  const auto triangles = static_cast<int>(stress.cols() / n);
-  ErrorEstimate estimate{Vector(triangles), 0};
-  std::vector<double> energies(blocksOf(triangles), 0);
-  Matrix there(stress.rows(), stress.cols());
-  Matrix strain(stress.rows(), stress.cols());
-  forEachBlock(triangles, threads, [&](int firstTriangle, int lastTriangle) {
-    const int begin = n * firstTriangle;
-    const int end = n * lastTriangle;
-    double energy = 0;
-    estimate.error.segment(firstTriangle, lastTriangle - firstTriangle).setZero();
-    const auto integrate = [&](size_t at, auto add) {
-      body_.material().elasticStrain(there, strain, begin, end);
-      for (int i = begin; i < end; ++i) {
-        const auto& toNode = rule[at + i % n].toNode;
-        double area = 0;
-        for (int k = 0; k < n; ++k) area += body_.weights()[n * (i / n) + k];
-        if (body_.axisymmetric()) area *= radiusOverMean(body_, i / n, rule[at + i % n].at);
-        const double weight =
-            area * std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
-        add(i / n, weight * there.col(i).dot(strain.col(i)));
-      }
-    };
-    // As many points of the rule at once as the element has: so each meets the material of its triangle.
-    for (size_t at = 0; at < rule.size(); at += n) {
-      for (int i = begin; i < end; ++i) {
-        const auto N = Element::shapes(rule[at + i % n].at);
-        there.col(i).setZero();
-        for (int a = 0; a < Element::nodes; ++a)
-          there.col(i) += N[a] * recovered.col(recoveredAt_[Element::nodes * (i / n) + a]);
-      }
-      integrate(at, [&](int /*triangle*/, double part) { energy += part; });
-      for (int i = begin; i < end; ++i) {
-        const auto L = Element::stressShapes(rule[at + i % n].at);
-        for (int k = 0; k < n; ++k) there.col(i) -= L[k] * stress.col(n * (i / n) + k);
-      }
-      integrate(at, [&](int triangle, double part) { estimate.error[triangle] += part; });
-    }
-    energies[firstTriangle / itemsOfBlock] = energy;
-  });
-  for (const double energy : energies) estimate.energy += energy;
-  return estimate;
+  return recovery_->recovered(stress, threads);
 }
 
 }  // namespace mortier

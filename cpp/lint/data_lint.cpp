@@ -64,8 +64,8 @@ class DataLint {
         values[2] = datum.value(middle.x(), middle.y(), t);
         const Misfit w = interpolationMisfit(edge, values, body_.degree());
         ofNodes.add(here * w.square, 0, middle);
-        mean += here * mortier::mean(edge);
-        square += here * w.size;
+        mean += here * edge.mean();
+        for (const auto& sample : edge.samples) square += here * sample.weight * sample.value * sample.value;
         length += here;
       }
       ofNodes.all = length > 0 ? square - mean * mean / length : 0;

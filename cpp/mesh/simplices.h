@@ -1,7 +1,10 @@
 // Meshes of triangles and of tetrahedra under the same names, for what is done to both alike.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <type_traits>
+#include <vector>
 
 #include "mesh/tetrahedron_mesh.h"
 #include "mesh/triangle_mesh.h"
@@ -34,6 +37,29 @@ auto& labelledSides(Mesh& mesh) {
     return mesh.boundaryTriangles;
   else
     return mesh.boundaryEdges;
+}
+
+/// The vertices of a side, ascending, those of an edge after a -1.
+template <size_t n>
+std::array<int, 3> sideOf(const std::array<int, n>& vertices) {
+  std::array<int, 3> side{-1, -1, -1};
+  std::copy(vertices.begin(), vertices.end(), side.begin());
+  std::sort(side.begin(), side.end());
+  return side;
+}
+
+/// Calls visit(side, element) for the sides of all elements that have no vertex but some. \param some  by
+/// vertices
+template <class Mesh, class Visit>
+void forEachSide(const Mesh& mesh, const std::vector<char>& some, Visit visit) {
+  const auto& elements = elementsOf(mesh);
+  for (size_t e = 0; e < elements.size(); ++e)
+    for (const int without : elements[e]) {
+      std::array<int, ofTetrahedra<Mesh> ? 3 : 2> side{};
+      std::copy_if(elements[e].begin(), elements[e].end(), side.begin(), [&](int v) { return v != without; });
+      if (std::all_of(side.begin(), side.end(), [&](int v) { return some[v] != 0; }))
+        visit(sideOf(side), static_cast<int>(e));
+    }
 }
 
 }  // namespace mortier

@@ -93,10 +93,8 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };
-    if (quantity.kind == Quantity::Kind::reaction) {
-      quantity.point = description.point;
-      quantity.pointInSpace = description.pointInSpace;
-    }
+    quantity.point = description.point;
+    quantity.pointInSpace = description.pointInSpace;
     const std::string point = description.point          ? shortest(*description.point)
                               : description.pointInSpace ? shortest(*description.pointInSpace)
                                                          : "";

@@ -10,19 +10,15 @@
 
 #include "contact/boundary_surface.h"
 #include "material/stress.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
 
-/// By the vertices of sides, ascending.
-template <size_t count>
-using Lenses = std::map<std::array<int, count>, Lens>;
+using Lenses = std::map<std::array<int, 3>, Lens>;  ///< by sides
 
-template <size_t count>
-void add(Lenses<count>& lenses, std::array<int, count> side, double volume, double traction) {
-  if (!std::isfinite(volume) || volume == 0) return;
-  std::sort(side.begin(), side.end());
-  lenses[side] = {volume, volume * traction};
+void add(Lenses& lenses, const std::array<int, 3>& side, double volume, double traction) {
+  if (std::isfinite(volume) && volume != 0) lenses[side] = {volume, volume * traction};
 }
 
 /// Along the normal of a label.
@@ -35,15 +31,15 @@ double normalTraction(const Tractions& tractions, int label, int normal, const A
 }
 
 /// Of parabolas over the edges.
-Lenses<2> lensesOf(const Body& body, double time) {
+Lenses lensesOf(const Body& body, double time) {
   const TriangleMesh& mesh = body.mesh();
-  Lenses<2> lenses;
+  Lenses lenses;
   for (size_t e = 0; e < mesh.edgeMiddles.size() && body.degree() == 1; ++e) {
     const Point& a = mesh.vertices[mesh.boundaryEdges[e][0]];
     const Point& b = mesh.vertices[mesh.boundaryEdges[e][1]];
     const Point middle = (a + b) / 2;
     const Point off = mesh.edgeMiddles[e] - middle;
-    add(lenses, mesh.boundaryEdges[e],
+    add(lenses, sideOf(mesh.boundaryEdges[e]),
         2 / 3.0 * (off.x() * (b.y() - a.y()) - off.y() * (b.x() - a.x())) * body.depthAt(middle),
         normalTraction(body.conditions().tractions, mesh.boundaryLabels[e], alongNormal,
                        [&](const auto& value) { return value(middle.x(), middle.y(), time); }));
@@ -134,13 +130,14 @@ class Behind {
 };
 
 /// Of what is quadratic over the triangles, from the normals at their vertices.
-Lenses<3> lensesOf(const SpaceElements& space, const Behind& surface, double time) {
+Lenses lensesOf(const SpaceElements& space, const Behind& surface, double time) {
   const TetrahedronMesh& mesh = space.mesh();
-  Lenses<3> lenses;
+  Lenses lenses;
   for (size_t t = 0; t < surface.count(); ++t) {
     const std::array<int, 3>& v = surface.triangle(t);
     const SpacePoint middle = (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3;
-    add(lenses, v, (surface.offset(t, 0) + surface.offset(t, 1) + surface.offset(t, 2)) / 3 * surface.area(t),
+    add(lenses, sideOf(v),
+        (surface.offset(t, 0) + surface.offset(t, 1) + surface.offset(t, 2)) / 3 * surface.area(t),
         normalTraction(space.conditions().tractions, surface.label(t), spaceNormal,
                        [&](const auto& value) { return value(middle, time); }));
   }
@@ -166,27 +163,24 @@ Vector loadsOnWiderSides(const Body& body, const Behind& surface, double time) {
   return loads;
 }
 
-template <size_t count>
-std::vector<Lens> behind(const Lenses<count>& lenses,
-                         const std::vector<std::array<int, count + 1>>& elements) {
-  std::vector<Lens> all(elements.size());
-  for (size_t e = 0; e < elements.size() && !lenses.empty(); ++e)
-    for (size_t without = 0; without <= count; ++without) {
-      std::array<int, count> side;
-      for (size_t k = 0, to = 0; k <= count; ++k)
-        if (k != without) side[to++] = elements[e][k];
-      std::sort(side.begin(), side.end());
-      if (const auto found = lenses.find(side); found != lenses.end())
-        all[e] = {all[e].volume + found->second.volume, all[e].pulled + found->second.pulled};
-    }
+template <class Mesh>
+std::vector<Lens> behind(const Lenses& lenses, const Mesh& mesh) {
+  std::vector<Lens> all(elementsOf(mesh).size());
+  std::vector<char> on(mesh.vertices.size(), 0);
+  for (const auto& [side, lens] : lenses)
+    for (const int v : side)
+      if (v >= 0) on[v] = 1;
+  forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) {
+    if (const auto found = lenses.find(side); found != lenses.end())
+      all[element] = {all[element].volume + found->second.volume, all[element].pulled + found->second.pulled};
+  });
   return all;
 }
 
 /// By elements behind them. \param surface  of a body in space
 std::vector<Lens> lensesBehind(const Body& body, const Behind* surface, double time) {
-  if (surface != nullptr)
-    return behind(lensesOf(*body.space(), *surface, time), body.space()->mesh().tetrahedra);
-  return behind(lensesOf(body, time), body.mesh().triangles);
+  if (surface != nullptr) return behind(lensesOf(*body.space(), *surface, time), body.space()->mesh());
+  return behind(lensesOf(body, time), body.mesh());
 }
 
 std::optional<Behind> surfaceOf(const Body& body) {

@@ -70,7 +70,7 @@ void MeshErrorEstimator::addAtEdge(size_t b, size_t edge, double energy, bool ne
   const Body& body = model_.bodies[b];
   const int index = static_cast<int>(b);
   const int triangle =
-      line(index, body.mesh().boundaryLabels[edge]).triangleOf(body.mesh().boundaryEdges[edge]);
+      elementBehind(index, body.mesh().boundaryLabels[edge], body.mesh().boundaryEdges[edge]);
   const Compliance compliance = complianceOf(state, index, triangle);
   const std::vector<Point> places = placesOf(body, edge);
   error[triangle] +=
@@ -185,13 +185,13 @@ void MeshErrorEstimator::addGivenGaps(size_t k, const State& state,
     here = std::min(here, state.contactForce[k][row] > 0 ? 0 : -gap[row]);
   }
   Compliance facing;  // the softest of the other side: it is what yields
-  for (const int triangle : line(mortar.body, mortar.label).triangles) {
+  for (const auto& [side, triangle] : behind_.at({mortar.body, mortar.label})) {
     const Compliance here = complianceOf(state, mortar.body, triangle);
     if (facing.all == 0 || here.all < facing.all) facing = here;
   }
   for (const auto& [edge, square, most] : gaps) {
     if (!(std::min(open[edge[0]], open[edge[1]]) < most)) continue;
-    const int triangle = line(nonmortar.body, nonmortar.label).triangleOf(edge);
+    const int triangle = elementBehind(nonmortar.body, nonmortar.label, edge);
     const Compliance compliance = complianceOf(state, nonmortar.body, triangle) + facing;
     estimates[nonmortar.body].error[triangle] +=
         compliance.elastic / (compliance.all * compliance.all) / 2 * square;
@@ -206,9 +206,9 @@ void MeshErrorEstimator::readData() {
     steadyData_[b] = Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size()));
     addTriangleData(b, 0, true, steadyData_[b]);
     for (const Traction& each : body.conditions().tractions)
-      if (unresolved(body, each.value)) addLine(static_cast<int>(b), each.label);
+      if (unresolved(body, each.value)) addSides(static_cast<int>(b), each.label);
     for (const PrescribedDisplacement& each : body.conditions().displacements)
-      if (isOnEdges(each) && unresolved(body, each.value)) addLine(static_cast<int>(b), each.label);
+      if (isOnEdges(each) && unresolved(body, each.value)) addSides(static_cast<int>(b), each.label);
   }
   for (size_t k = 0; k < model_.interfaces.size(); ++k)
     givenGaps_.push_back(model_.interfaces[k].given().inTime ? std::vector<GivenGap>() : givenGaps(k, 0));

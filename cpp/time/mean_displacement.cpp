@@ -34,10 +34,6 @@ Barycentric onCurved(const std::array<Point, QuadraticTriangle::nodes>& x, const
 
 }  // namespace
 
-Weights meanAt(const TriangleMesh& mesh, const Point& point) {
-  return meanAt(mesh, elementNodes(mesh, 1), point);
-}
-
 Weights meanAt(const TriangleMesh& mesh, const ElementNodes& nodes, const Point& point) {
   constexpr double rounding = 1e-9;  // of a triangle: a point on the boundary is inside
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -62,10 +58,6 @@ Weights meanAt(const TriangleMesh& mesh, const ElementNodes& nodes, const Point&
     return weights;
   }
   return {};
-}
-
-Weights meanOn(const TriangleMesh& mesh, int label, bool axisymmetric) {
-  return meanOn(mesh, elementNodes(mesh, 1), label, axisymmetric);
 }
 
 Weights meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, bool axisymmetric) {

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "material/stress.h"
+#include "mesh/simplices.h"
 #include "solver/model.h"
 
 namespace mortier {
@@ -50,52 +51,40 @@ Vector stiffestCompliance(const Body& body, Threads& threads) {
 }  // namespace
 
 MeshErrorEstimator::MeshErrorEstimator(const Model& model, Threads& threads) : model_(model) {
-  std::vector<std::optional<ErrorEstimator>> bodies(model.bodies.size());
-  compliances_.resize(model.bodies.size());
-  threads.forEach(static_cast<int>(model.bodies.size()), [&](int b) {
-    bodies[b].emplace(model.bodies[b], threads);
-    compliances_[b] = stiffestCompliance(model.bodies[b], threads);
-  });
-  for (std::optional<ErrorEstimator>& body : bodies) bodies_.push_back(std::move(*body));
+  for (const Body& body : model.bodies) {
+    bodies_.emplace_back(body);
+    compliances_.push_back(stiffestCompliance(body, threads));
+  }
   for (const ContactInterface& interface : model.interfaces) {
     const auto& [nonmortar, mortar, coupling] = interface.pair();
-    for (const ContactSide& side : {nonmortar, mortar})
-      if (interface.dimension() == 3)
-        addSurface(side.body, side.label);
-      else
-        addLine(side.body, side.label);
+    for (const ContactSide& side : {nonmortar, mortar}) addSides(side.body, side.label);
   }
   if (model.bodies.front().dimension() == 2) readData();
 }
 
-void MeshErrorEstimator::addLine(int body, int label) {
-  const auto [place, isNew] = lines_.try_emplace({body, label});
+void MeshErrorEstimator::addSides(int body, int label) {
+  const auto [place, isNew] = behind_.try_emplace({body, label});
   if (!isNew) return;
-  const TriangleMesh& mesh = model_.bodies[body].mesh();
-  Line& line = place->second;
-  std::vector<char> onLine(mesh.vertices.size(), 0);
-  for (std::array<int, 2> edge : edgesOn(mesh, label)) {
-    std::sort(edge.begin(), edge.end());
-    onLine[edge[0]] = onLine[edge[1]] = 1;
-    line.edges.push_back(edge);
-  }
-  std::sort(line.edges.begin(), line.edges.end());
-  line.triangles.assign(line.edges.size(), 0);
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      const std::array<int, 2> edge{low, high};
-      if (onLine[low] == 0 || onLine[high] == 0) continue;
-      const auto found = std::lower_bound(line.edges.begin(), line.edges.end(), edge);
-      if (found != line.edges.end() && *found == edge)
-        line.triangles[found - line.edges.begin()] = static_cast<int>(t);
+  Behind& behind = place->second;
+  const auto add = [&](const auto& mesh) {
+    std::vector<char> on(mesh.vertices.size(), 0);
+    for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i) {
+      if (mesh.boundaryLabels[i] != label) continue;
+      behind[sideOf(labelledSides(mesh)[i])] = 0;
+      for (const int v : labelledSides(mesh)[i]) on[v] = 1;
     }
+    forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) {
+      if (const auto found = behind.find(side); found != behind.end()) found->second = element;
+    });
+  };
+  if (const SpaceElements* space = model_.bodies[body].space())
+    add(space->mesh());
+  else
+    add(model_.bodies[body].mesh());
 }
 
-int MeshErrorEstimator::Line::triangleOf(const std::array<int, 2>& edge) const {
-  const auto [low, high] = std::minmax(edge[0], edge[1]);
-  const auto found = std::lower_bound(edges.begin(), edges.end(), std::array<int, 2>{low, high});
-  return triangles[found - edges.begin()];
+int MeshErrorEstimator::elementBehind(int body, int label, const std::array<int, 2>& edge) const {
+  return behind_.at({body, label}).at(sideOf(edge));
 }
 
 MeshErrorEstimator::Compliance MeshErrorEstimator::complianceOf(const State& state, int body,
@@ -205,10 +194,10 @@ void MeshErrorEstimator::addGaps(size_t interface, const State& state,
   for (const GapSquare& square :
        contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,
                           state.bodies[mortar.body].displacement, state.time)) {
-    const int triangle = line(nonmortar.body, nonmortar.label).triangleOf(square.nonmortar);
+    const int triangle = elementBehind(nonmortar.body, nonmortar.label, square.nonmortar);
     const Compliance compliance =
         complianceOf(state, nonmortar.body, triangle) +
-        complianceOf(state, mortar.body, line(mortar.body, mortar.label).triangleOf(square.mortar));
+        complianceOf(state, mortar.body, elementBehind(mortar.body, mortar.label, square.mortar));
     estimates[nonmortar.body].error[triangle] +=
         compliance.elastic / (compliance.all * compliance.all) * square.integral / square.element;
   }

@@ -46,17 +46,12 @@ class MeshErrorEstimator {
   [[nodiscard]] const ErrorEstimator& ofBody(size_t body) const { return bodies_[body]; }
 
  private:
-  /// Where the elements of a line are, and how soft.
-  struct Line {
-    std::vector<std::array<int, 2>> edges;  ///< smaller vertex first, ascending
-    std::vector<int> triangles;             ///< behind them
-    [[nodiscard]] int triangleOf(const std::array<int, 2>& edge) const;
-  };
-  void addLine(int body, int label);
-  [[nodiscard]] const Line& line(int body, int label) const { return lines_.at({body, label}); }
+  /// Elements behind the sides of a label (mesh/simplices.h).
+  using Behind = std::map<std::array<int, 3>, int>;
+  void addSides(int body, int label);
+  [[nodiscard]] int elementBehind(int body, int label, const std::array<int, 2>& edge) const;
   void addGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
-  // The same of surfaces (surface_error.cpp).
-  void addSurface(int body, int label);
+  /// The same of surfaces (surface_error.cpp).
   void addSurfaceGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
   /// 1/E, and strain over stress [1/Pa].
   struct Compliance {
@@ -90,11 +85,9 @@ class MeshErrorEstimator {
 
   const Model& model_;
   std::vector<ErrorEstimator> bodies_;
-  std::map<std::array<int, 2>, Line> lines_;  ///< by body and label: of contact, and where data vary
-  /// By body and label: tetrahedra behind the triangles of a surface, by their vertices, ascending.
-  std::map<std::array<int, 2>, std::map<std::array<int, 3>, int>> surfaces_;
-  std::vector<Vector> compliances_;  ///< 1/E by points [1/Pa]
-  std::vector<Vector> steadyData_;   ///< of each body, by triangles; empty where all are resolved
+  std::map<std::array<int, 2>, Behind> behind_;  ///< by body and label: of contact, and where data vary
+  std::vector<Vector> compliances_;              ///< 1/E by points [1/Pa]
+  std::vector<Vector> steadyData_;               ///< of each body, by triangles; empty where all are resolved
   std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move
 };
 

@@ -46,8 +46,9 @@ struct Quantity {
   Component component = Component::x;
   SpacePoint about{0, 0, 0};  ///< of the moment; z = 0 in the plane [m]
   std::vector<std::pair<int, double>> mean =
-      {};                           ///< of a displacement: nodes and their weights, which sum to one
-  std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
+      {};  ///< of a displacement: nodes and their weights, which sum to one
+  /// In place of the label: of a displacement, or of a reaction that of a held vertex [m]
+  std::optional<Point> point = {};
   std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
   std::optional<LinePart> part = {};            ///< of a mean pressure
   std::vector<Vector> shares = {};              ///< of contact forces in it (time/mean_pressure.h)
@@ -85,15 +86,11 @@ double largestPressureError(const Quantity& quantity, const Model& model, const 
 /// The displacement at a point of a mesh as a mean of those of nodes; empty where the point is outside.
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const ElementNodes& nodes,
                                            const Point& point);
-/// The same of linear displacements.
-std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point);
 
 /// The mean displacement of a label in the same way: the integral over its length, or over the surface that
 /// it is as it turns about the axis x = 0.
 std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label,
                                            bool axisymmetric = false);
-/// The same of linear displacements.
-std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric = false);
 /// The same of a body in space.
 std::vector<std::pair<int, double>> meanAt(const SpaceElements& elements, const SpacePoint& point);
 std::vector<std::pair<int, double>> meanOn(const SpaceElements& elements, int label);

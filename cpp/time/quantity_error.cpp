@@ -226,7 +226,7 @@ Vector missedHeat(const Body& body, double time) {
       const Point& at = places[t * points + i];
       sum += temperature(at.x(), at.y(), time) / points;
     }
-    missed[static_cast<Eigen::Index>(t)] = mean(onTriangle(temperature, corners, time)) - sum;
+    missed[static_cast<Eigen::Index>(t)] = onTriangle(temperature, corners, time).mean() - sum;
   }
   return missed;
 }

@@ -9,9 +9,14 @@ namespace mortier {
 /// x, y or z, of a component or of the axis that it turns about, as a number.
 int axisOf(const Quantity& quantity);
 
+/// The component as a unit motion at a place: along an axis, or by a unit angle about a point.
+SpacePoint motionAt(const Quantity& quantity, const SpacePoint& x);
+
 /// The motion (dofs) on which the work of forces at the nodes is a reaction, for those of supports, or a
 /// contact force, for those that contact takes from the body.
 Vector motionOf(const Quantity& quantity, const Model& model);
+/// That of a reaction, on any mesh of its body.
+Vector reactionMotion(const Quantity& quantity, const Body& body);
 
 /// The direction of contact at a row; z = 0 in the plane.
 SpacePoint normalAt(const ContactInterface& interface, int row);

@@ -8,11 +8,6 @@
 namespace mortier {
 namespace {
 
-std::array<int, 3> ascending(std::array<int, 3> triangle) {
-  std::sort(triangle.begin(), triangle.end());
-  return triangle;
-}
-
 /// By points, the three vertices of the triangle that they lie on.
 std::vector<std::array<int, 3>> trianglesOf(const Eigen::SparseMatrix<double>& traces, int vertices) {
   std::vector<std::array<int, 3>> triangles(static_cast<size_t>(traces.rows()));
@@ -24,25 +19,6 @@ std::vector<std::array<int, 3>> trianglesOf(const Eigen::SparseMatrix<double>& t
 }
 
 }  // namespace
-
-void MeshErrorEstimator::addSurface(int body, int label) {
-  const auto [place, isNew] = surfaces_.try_emplace({body, label});
-  if (!isNew) return;
-  const TetrahedronMesh& mesh = model_.bodies[body].space()->mesh();
-  std::map<std::array<int, 3>, int>& surface = place->second;
-  std::vector<char> on(mesh.vertices.size(), 0);
-  for (const auto& triangle : trianglesOn(mesh, label)) {
-    surface[ascending(triangle)] = 0;
-    for (const int v : triangle) on[v] = 1;
-  }
-  for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
-    const std::array<int, 4>& v = mesh.tetrahedra[e];
-    if (on[v[0]] + on[v[1]] + on[v[2]] + on[v[3]] < 3) continue;
-    for (const auto& [a, b, c] : {std::array{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}})
-      if (const auto found = surface.find(ascending({v[a], v[b], v[c]})); found != surface.end())
-        found->second = static_cast<int>(e);
-  }
-}
 
 void MeshErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
                                         std::vector<ErrorEstimate>& estimates) const {
@@ -61,7 +37,7 @@ void MeshErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
     triangles[s] = trianglesOf(points.traces[s], static_cast<int>(mesh.vertices.size()));
   }
   const auto elementOf = [&](size_t side, Eigen::Index point) {
-    const auto& surface = surfaces_.at({sides[side].body, sides[side].label});
+    const auto& surface = behind_.at({sides[side].body, sides[side].label});
     const auto found = surface.find(triangles[side][point]);
     return found == surface.end() ? 0 : found->second;
   };

@@ -70,7 +70,7 @@ TEST(ErrorEstimate, threadsChangeNothing) {
     const ErrorEstimate one = ErrorEstimator(body)(stress);
     for (const int count : {2, 5}) {
       Threads threads(count);
-      const ErrorEstimate many = ErrorEstimator(body, threads)(stress, threads);
+      const ErrorEstimate many = ErrorEstimator(body)(stress, threads);
       EXPECT_TRUE(many.error == one.error && many.energy == one.energy) << count << " threads";
     }
   }

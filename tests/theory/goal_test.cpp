@@ -41,8 +41,8 @@ std::vector<Found> refined(Way way, int rounds) {
     const Model model = tiltedBlock(meshes);
     const auto [state, report] = run(model, 1, 1);
     EXPECT_EQ(report.status, Status::converged);
-    const EnergyBound bound =
-        energyBound(model, state, {{Functional::Kind::contactForce, upperBody, bottom, {0, 1}}});
+    const EnergyBound bound = energyBound(
+        model, state, {{"", Quantity::Kind::contactForce, upperBody, bottom, Quantity::Component::y}});
     const Enclosure& enclosure = bound.quantities[0];
     EXPECT_EQ(enclosure.obstacle, "");
     const double force = state.contactForce[0].sum();

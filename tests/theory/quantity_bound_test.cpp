@@ -20,34 +20,24 @@
 namespace mortier::quantity_bound_test {
 
 using namespace scenes;
-using Kind = Functional::Kind;
-
-const Point up(0, 1);
-const Point across(1, 0);
+using Kind = Quantity::Kind;
+constexpr auto up = Quantity::Component::y;
+constexpr auto across = Quantity::Component::x;
+constexpr auto turn = Quantity::Component::momentZ;
 
 /// The value that a run reports.
-double valueOf(const Functional& f, const Model& model, const State& state) {
-  Quantity quantity{"q",
-                    f.kind == Kind::meanPressure   ? Quantity::Kind::meanPressure
-                    : f.kind == Kind::reaction     ? Quantity::Kind::reaction
-                    : f.kind == Kind::contactForce ? Quantity::Kind::contactForce
-                                                   : Quantity::Kind::displacement,
-                    f.body,
-                    f.label,
-                    f.turn != 0            ? Quantity::Component::momentZ
-                    : f.direction.x() != 0 ? Quantity::Component::x
-                                           : Quantity::Component::y,
-                    SpacePoint(f.about.x(), f.about.y(), 0),
-                    {}};
-  if (f.kind == Kind::displacement) quantity.mean = meanOn(model.bodies[f.body].mesh(), f.label);
-  if (f.kind == Kind::meanPressure) quantity.shares = meanPressureShares(model, f.body, f.label, *f.part);
+double valueOf(Quantity quantity, const Model& model, const State& state) {
+  const Body& body = model.bodies[quantity.body];
+  if (quantity.kind == Kind::displacement)
+    quantity.mean = meanOn(body.mesh(), body.elementNodes(), quantity.label);
+  if (quantity.kind == Kind::meanPressure)
+    quantity.shares = meanPressureShares(model, quantity.body, quantity.label, *quantity.part);
   return evaluate({quantity}, model, state)[0];
 }
 
 /// The mean pressure between two places of a level line.
-Functional pressureOf(const Model& model, int body, int label, const std::array<double, 2>& x,
-                      double margin) {
-  Functional result{Kind::meanPressure, body, label};
+Quantity pressureOf(const Model& model, int body, int label, const std::array<double, 2>& x, double margin) {
+  Quantity result{"", Kind::meanPressure, body, label};
   const BoundaryLine line = boundaryLine(model.bodies[body].mesh(), label);
   const double y = line.points[0].y();
   result.part = LinePart(line, {x[0], y}, {x[1], y}, margin);
@@ -76,11 +66,11 @@ TEST(QuantityBound, isZeroToRoundingWhereTheSolutionIsExact) {
   const Model model = compression(6, 10, elasticMaterial(noteElasticity), CouplingKind::mortar, upperBody);
   const auto [state, report] = run(model, 1, 1);
   const double E = noteElasticity.young;
-  const std::vector<Functional> asked{
-      {Kind::contactForce, upperBody, bottom, up},        {Kind::contactForce, lowerBody, top, up},
-      {Kind::contactForce, upperBody, bottom, {0, 0}, 1}, {Kind::reaction, lowerBody, bottom, up},
-      {Kind::reaction, lowerBody, left, across},          {Kind::displacement, upperBody, top, up},
-      {Kind::displacement, lowerBody, top, across},       pressureOf(model, lowerBody, top, {0, 1}, 0)};
+  const std::vector<Quantity> asked{
+      {"", Kind::contactForce, upperBody, bottom, up},   {"", Kind::contactForce, lowerBody, top, up},
+      {"", Kind::contactForce, upperBody, bottom, turn}, {"", Kind::reaction, lowerBody, bottom, up},
+      {"", Kind::reaction, lowerBody, left, across},     {"", Kind::displacement, upperBody, top, up},
+      {"", Kind::displacement, lowerBody, top, across},  pressureOf(model, lowerBody, top, {0, 1}, 0)};
   const std::vector<double> exact{10, -10, 5, 10, 0, -20 / E, noteElasticity.poisson * 10 / E / 2, 10};
   const EnergyBound bound = energyBound(model, state, asked);
   ASSERT_EQ(bound.quantities.size(), asked.size());
@@ -98,9 +88,9 @@ TEST(QuantityBound, holdsForInterpolation) {
       compression(6, 16, elasticMaterial(noteElasticity), CouplingKind::interpolation, upperBody);
   const auto [state, report] = run(model, 1, 1);
   const double E = noteElasticity.young;
-  const std::vector<Functional> asked{{Kind::displacement, upperBody, top, up},
-                                      {Kind::displacement, lowerBody, top, across},
-                                      {Kind::displacement, upperBody, right, across}};
+  const std::vector<Quantity> asked{{"", Kind::displacement, upperBody, top, up},
+                                    {"", Kind::displacement, lowerBody, top, across},
+                                    {"", Kind::displacement, upperBody, right, across}};
   const std::vector<double> exact{-20 / E, noteElasticity.poisson * 5 / E, noteElasticity.poisson * 10 / E};
   const EnergyBound bound = energyBound(model, state, asked);
   for (size_t i = 0; i < asked.size(); ++i) {
@@ -128,9 +118,9 @@ Model tiltedBlock(int cells, CouplingKind coupling) {
 }
 
 TEST(QuantityBound, forceOfATiltedBlock) {
-  const std::vector<Functional> asked{{Kind::contactForce, upperBody, bottom, up},
-                                      {Kind::contactForce, upperBody, bottom, {0, 0}, 1},
-                                      {Kind::displacement, upperBody, right, across}};
+  const std::vector<Quantity> asked{{"", Kind::contactForce, upperBody, bottom, up},
+                                    {"", Kind::contactForce, upperBody, bottom, turn},
+                                    {"", Kind::displacement, upperBody, right, across}};
   constexpr size_t all = 5;
   std::vector<double> lower(all, -INFINITY);
   std::vector<double> upper(all, INFINITY);
@@ -139,7 +129,7 @@ TEST(QuantityBound, forceOfATiltedBlock) {
     const Model model = tiltedBlock(cells, coupling);
     const auto [state, report] = run(model, 1, 1);
     ASSERT_EQ(report.status, Status::converged);
-    std::vector<Functional> these = asked;
+    std::vector<Quantity> these = asked;
     these.push_back(pressureOf(model, lowerBody, top, {0.05, 0.33}, 0));
     these.push_back(pressureOf(model, upperBody, bottom, {0.05, 0.33}, 0.1));
     const EnergyBound bound = energyBound(model, state, these);
@@ -170,9 +160,9 @@ TEST(QuantityBound, supportsThatGoOnHaveNoReactionOfTheirOwn) {
                  {{top, 1, constant(-1)}},
                  {}});
   const auto [state, report] = run(model, 1, 1);
-  const std::vector<Functional> asked{{Kind::reaction, 0, bottom, across},
-                                      {Kind::reaction, 0, left, across},
-                                      {Kind::reaction, 0, bottom, up}};
+  const std::vector<Quantity> asked{{"", Kind::reaction, 0, bottom, across},
+                                    {"", Kind::reaction, 0, left, across},
+                                    {"", Kind::reaction, 0, bottom, up}};
   const EnergyBound bound = energyBound(model, state, asked);
   EXPECT_NE(bound.quantities[0].obstacle, "");
   EXPECT_NE(bound.quantities[1].obstacle, "");
@@ -184,13 +174,13 @@ TEST(QuantityBound, supportsThatGoOnHaveNoReactionOfTheirOwn) {
 TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
   const char* asked = std::getenv("MORTIER_RANDOM_QUANTITIES");
   const unsigned count = asked ? static_cast<unsigned>(std::atoi(asked)) : 10;
-  const auto functionalsOf = [](const Model& model) -> std::vector<Functional> {
-    return {{Kind::contactForce, upperBody, bottom, up},
-            {Kind::contactForce, lowerBody, top, {0, 0}, 1, {0.3, 0}},
-            {Kind::reaction, lowerBody, bottom, up},
-            {Kind::reaction, lowerBody, bottom, across},
-            {Kind::displacement, upperBody, top, up},
-            {Kind::displacement, lowerBody, top, up},
+  const auto quantitiesOf = [](const Model& model) -> std::vector<Quantity> {
+    return {{"", Kind::contactForce, upperBody, bottom, up},
+            {"", Kind::contactForce, lowerBody, top, turn, {0.3, 0, 0}},
+            {"", Kind::reaction, lowerBody, bottom, up},
+            {"", Kind::reaction, lowerBody, bottom, across},
+            {"", Kind::displacement, upperBody, top, up},
+            {"", Kind::displacement, lowerBody, top, up},
             pressureOf(model, upperBody, bottom, {0.21, 0.68}, 0),
             pressureOf(model, lowerBody, top, {0.5, 1}, 0),
             pressureOf(model, upperBody, bottom, {0.35, 0.6}, 0.2)};
@@ -204,17 +194,17 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
     const Model model = RandomScene(seed).model();
     const auto [state, report] = run(model, 1, 1);
     if (report.status != Status::converged) continue;
-    const std::vector<Functional> functionals = functionalsOf(model);
-    const EnergyBound bound = energyBound(model, state, functionals);
+    const std::vector<Quantity> quantities = quantitiesOf(model);
+    const EnergyBound bound = energyBound(model, state, quantities);
     if (!bound.obstacle.empty()) continue;
     const Refined fine = refined(model, 2);
     const auto [fineState, fineReport] = run(fine.model, 1, 1);
     ASSERT_EQ(fineReport.status, Status::converged) << seed;
-    const std::vector<Functional> fineFunctionals = functionalsOf(fine.model);
-    const EnergyBound fineBound = energyBound(fine.model, fineState, fineFunctionals);
+    const std::vector<Quantity> fineQuantities = quantitiesOf(fine.model);
+    const EnergyBound fineBound = energyBound(fine.model, fineState, fineQuantities);
     ASSERT_EQ(fineBound.obstacle, "") << seed;
     bool all = true;
-    for (size_t i = 0; i < functionals.size(); ++i) {
+    for (size_t i = 0; i < quantities.size(); ++i) {
       const Enclosure& coarse = bound.quantities[i];
       const Enclosure& finer = fineBound.quantities[i];
       if (!coarse.obstacle.empty() || !finer.obstacle.empty()) {
@@ -223,7 +213,7 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
         all = false;
         continue;
       }
-      const double value = valueOf(fineFunctionals[i], fine.model, fineState);
+      const double value = valueOf(fineQuantities[i], fine.model, fineState);
       const double off = finer.error(value);
       const double rounding = 1e-11;  // moduli, lengths and loads are about 1
       EXPECT_LE(coarse.lower, value + off + rounding) << "scene " << seed << ", " << i;

@@ -26,7 +26,7 @@ Datum unit(std::function<double(double)> value) {
 }
 
 double meanOn(const Datum& datum, double from, double to) {
-  return mean(onEdge(datum, {{from, 0}, {to, 0}}, 0));
+  return onEdge(datum, {{from, 0}, {to, 0}}, 0).mean();
 }
 
 TEST(Datum, knowsItsDegreeInSpace) {
@@ -103,25 +103,24 @@ TEST(AdaptiveQuadrature, whatIsBeyondTheBudgetIsNamed) {
 TEST(AdaptiveQuadrature, trianglesSeeJumps) {
   const Datum jump(Function([](double x, double, double) { return x < 0.25 ? 1 : 0; }));
   // The part of the triangle with x < 1/4.
-  EXPECT_NEAR(mean(onTriangle(jump, {{0, 0}, {1, 0}, {0, 1}}, 0)), 1 - 0.75 * 0.75, 2e-3);
+  EXPECT_NEAR(onTriangle(jump, {{0, 0}, {1, 0}, {0, 1}}, 0).mean(), 1 - 0.75 * 0.75, 2e-3);
   const Datum wave(Function([](double x, double y, double) { return std::sin(9 * x) * std::exp(y); }));
   // integral over the unit triangle of sin(9x) (e^(1-x) - 1), times 2
   const double byParts = (std::exp(1) * 9 - std::sin(9.0) - 9 * std::cos(9.0)) / 82;
-  EXPECT_NEAR(mean(onTriangle(wave, {{0, 0}, {1, 0}, {0, 1}}, 0)), 2 * (byParts - (1 - std::cos(9.0)) / 9),
+  EXPECT_NEAR(onTriangle(wave, {{0, 0}, {1, 0}, {0, 1}}, 0).mean(), 2 * (byParts - (1 - std::cos(9.0)) / 9),
               1e-6);
 }
 
 TEST(Misfit, ofAWaveIsItsSize) {
   const double k = 8 * pi;
   const ResolvedEdge wave = onEdge(unit([k](double x) { return std::sin(k * x); }), {{0, 0}, {0.5, 0}}, 0);
-  const Misfit w = misfit(wave, 0);
+  const Misfit w = interpolationMisfit(wave, {0, 0, 0}, 1);
   EXPECT_NEAR(w.square, 0.5, 1e-8);
-  EXPECT_NEAR(w.size, 0.5, 1e-8);
   // W = -cos/k on the edge, of length 1/2
   EXPECT_NEAR(w.primitive, 0.5 / (k / 2 * k / 2), 0.05 * w.primitive);
-  EXPECT_NEAR(interpolationMisfit(wave, {0, 0, 0}, 1).slope, k * k / 4 / 2, 0.02 * k * k);
-  EXPECT_LT(misfit(onEdge(unit([](double x) { return 1 - x + x * x; }), {{0, 0}, {2, 0}}, 0), 2).square,
-            1e-25);
+  EXPECT_NEAR(w.slope, k * k / 4 / 2, 0.02 * k * k);
+  const ResolvedEdge parabola = onEdge(unit([](double x) { return 1 - x + x * x; }), {{0, 0}, {2, 0}}, 0);
+  EXPECT_LT(interpolationMisfit(parabola, {1, 3, 1}, 2).square, 1e-25);
 }
 
 TEST(Misfit, ofALineSeesWhatAlternates) {

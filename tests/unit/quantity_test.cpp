@@ -188,10 +188,10 @@ TEST(Quantity, displacementsAreThoseOfThePoint) {
     return p;
   };
   for (const Point& p : {Point(0.3, 0.7), Point(0, 0), Point(2, 1), Point(1.1, 0), Point(2, 0.123)})
-    EXPECT_LT((mean(meanAt(mesh, p)) - p).norm(), 1e-14);
-  EXPECT_TRUE(meanAt(mesh, {2.001, 0.5}).empty());
-  EXPECT_LT((mean(meanOn(mesh, 1)) - Point(1, 0)).norm(), 1e-14);
-  EXPECT_LT((mean(meanOn(mesh, 2)) - Point(2, 0.5)).norm(), 1e-14);
+    EXPECT_LT((mean(meanAt(mesh, elementNodes(mesh, 1), p)) - p).norm(), 1e-14);
+  EXPECT_TRUE(meanAt(mesh, elementNodes(mesh, 1), {2.001, 0.5}).empty());
+  EXPECT_LT((mean(meanOn(mesh, elementNodes(mesh, 1), 1)) - Point(1, 0)).norm(), 1e-14);
+  EXPECT_LT((mean(meanOn(mesh, elementNodes(mesh, 1), 2)) - Point(2, 0.5)).norm(), 1e-14);
 }
 
 // Quadratic fields too where displacements are quadratic, on straight and on curved sides.
