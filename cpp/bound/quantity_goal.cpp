@@ -21,15 +21,12 @@ std::string reactionValues(const Functional& functional, const Body& body, Vecto
   const auto& conditions = body.conditions().displacements;
   std::vector<std::vector<Point>> heldAt(body.nodes());
   for (const NodeSupport& support : body.supports().nodes()) {
-    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
-    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
-    // r = sum of shares along the directions: rows of the inverse pick them.
-    const Eigen::Matrix2d shares =
-        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
     const Point e = functional.at(mesh.vertices[support.node]);
+    std::array<double, 3> along{};
     for (int i = 0; i < support.count; ++i)
       if (conditions[support.conditions[i]].label == functional.label)
-        z.segment<2>(2 * support.node) -= support.directions[i].dot(e) * shares.row(i).transpose();
+        along[i] = support.directions[i].head<2>().dot(e);
+    z.segment<2>(2 * support.node) -= support.motion(along).head<2>();
   }
   double size = 0;
   for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k)
@@ -39,7 +36,7 @@ std::string reactionValues(const Functional& functional, const Body& body, Vecto
     const bool own = mesh.boundaryLabels[k] == functional.label;
     const auto& [a, b] = mesh.boundaryEdges[k];
     const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
-    for (const PrescribedDisplacement& held : conditions) {
+    for (const Condition& held : conditions) {
       if (held.label != mesh.boundaryLabels[k]) continue;
       const Point d = held.component == Component::alongX        ? Point(1, 0)
                       : held.component == Component::alongY      ? Point(0, 1)

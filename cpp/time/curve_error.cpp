@@ -26,11 +26,10 @@ void add(Lenses<count>& lenses, std::array<int, count> side, double volume, doub
 }
 
 /// Along the normal of a label.
-template <class Tractions, class At>
-double normalTraction(const Tractions& tractions, int label, int normal, const At& at) {
+double normalTraction(const Body& body, int label, const SpacePoint& at, double time) {
   double sum = 0;
-  for (const auto& traction : tractions)
-    if (traction.label == label && traction.component == normal) sum += at(traction.value);
+  for (const Condition& traction : body.conditions().tractions)
+    if (traction.label == label && traction.component == alongNormal) sum += traction.value(at, time);
   return sum;
 }
 
@@ -45,8 +44,7 @@ Lenses<2> lensesOf(const Body& body, double time) {
     const Point off = mesh.edgeMiddles[e] - middle;
     add(lenses, mesh.boundaryEdges[e],
         2 / 3.0 * (off.x() * (b.y() - a.y()) - off.y() * (b.x() - a.x())) * body.depthAt(middle),
-        normalTraction(body.conditions().tractions, mesh.boundaryLabels[e], alongNormal,
-                       [&](const auto& value) { return value(middle.x(), middle.y(), time); }));
+        normalTraction(body, mesh.boundaryLabels[e], asSpacePoint(middle), time));
   }
   return lenses;
 }
@@ -134,15 +132,14 @@ class Behind {
 };
 
 /// Of what is quadratic over the triangles, from the normals at their vertices.
-Lenses<3> lensesOf(const SpaceElements& space, const Behind& surface, double time) {
-  const TetrahedronMesh& mesh = space.mesh();
+Lenses<3> lensesOf(const Body& body, const Behind& surface, double time) {
+  const TetrahedronMesh& mesh = body.space()->mesh();
   Lenses<3> lenses;
   for (size_t t = 0; t < surface.count(); ++t) {
     const std::array<int, 3>& v = surface.triangle(t);
     const SpacePoint middle = (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3;
     add(lenses, v, (surface.offset(t, 0) + surface.offset(t, 1) + surface.offset(t, 2)) / 3 * surface.area(t),
-        normalTraction(space.conditions().tractions, surface.label(t), spaceNormal,
-                       [&](const auto& value) { return value(middle, time); }));
+        normalTraction(body, surface.label(t), middle, time));
   }
   return lenses;
 }
@@ -150,14 +147,14 @@ Lenses<3> lensesOf(const SpaceElements& space, const Behind& surface, double tim
 /// What tractions on sides that are wider than meshed add to the nodes at their edges (dofs).
 Vector loadsOnWiderSides(const Body& body, const Behind& surface, double time) {
   Vector loads = Vector::Zero(body.dofs());
-  for (const SpaceCondition& traction : body.space()->conditions().tractions)
+  for (const Condition& traction : body.conditions().tractions)
     for (size_t t = 0; t < surface.count(); ++t)
       for (int k = 0; k < 3 && surface.label(t) == traction.label; ++k) {
         const double area = surface.widerAt(t, k);
         if (area == 0) continue;
         const std::array ends{surface.triangle(t)[k], surface.triangle(t)[(k + 1) % 3]};
         const SpacePoint middle = (body.placeOfNode(ends[0]) + body.placeOfNode(ends[1])) / 2;
-        const SpacePoint direction = traction.component < spaceNormal
+        const SpacePoint direction = traction.component < alongNormal
                                          ? SpacePoint(SpacePoint::Unit(traction.component))
                                          : surface.facet(t);
         for (const int node : ends)
@@ -184,8 +181,7 @@ std::vector<Lens> behind(const Lenses<count>& lenses,
 
 /// By elements behind them. \param surface  of a body in space
 std::vector<Lens> lensesBehind(const Body& body, const Behind* surface, double time) {
-  if (surface != nullptr)
-    return behind(lensesOf(*body.space(), *surface, time), body.space()->mesh().tetrahedra);
+  if (surface != nullptr) return behind(lensesOf(body, *surface, time), body.space()->mesh().tetrahedra);
   return behind(lensesOf(body, time), body.mesh().triangles);
 }
 

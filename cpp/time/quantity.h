@@ -46,12 +46,11 @@ struct Quantity {
   Component component = Component::x;
   SpacePoint about{0, 0, 0};  ///< of the moment; z = 0 in the plane [m]
   std::vector<std::pair<int, double>> mean =
-      {};                           ///< of a displacement: nodes and their weights, which sum to one
-  std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
-  std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
-  std::optional<LinePart> part = {};            ///< of a mean pressure
-  std::vector<Vector> shares = {};              ///< of contact forces in it (time/mean_pressure.h)
-  bool whole = false;                           ///< of all of a rigid body, in place of a label
+      {};                                ///< of a displacement: nodes and their weights, which sum to one
+  std::optional<SpacePoint> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
+  std::optional<LinePart> part = {};     ///< of a mean pressure
+  std::vector<Vector> shares = {};       ///< of contact forces in it (time/mean_pressure.h)
+  bool whole = false;                    ///< of all of a rigid body, in place of a label
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, in space N, N m, m, m^2, J or Pa, or what they are
   /// in other units.
@@ -67,8 +66,7 @@ bool isMoment(Quantity::Component component);
 /// Whether the work done on bodies must be counted for it.
 bool needsWork(const Quantity& quantity);
 /// The first condition that holds a label of a body or, where one is given, a point; -1 for none.
-int firstSupport(const Body& body, int label, const std::optional<Point>& point,
-                 const std::optional<SpacePoint>& pointInSpace = {});
+int firstSupport(const Body& body, int label, const std::optional<SpacePoint>& point);
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);
