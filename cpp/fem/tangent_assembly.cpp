@@ -206,6 +206,21 @@ void TangentAssembly::assemblePlain(const ElementData<dim>& elements, const std:
         for (int b = 0; b < n; ++b) {
           if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
           const auto columns = at.columns(b);
+          if constexpr (dim == 2) {  // written out: loops over the columns cost half of the time more
+            double* columnX = first + start[equation[b]];
+            double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
+            for (int a = 0; a < n; ++a) {
+              if (symmetric && equation[a] < equation[b]) continue;
+              const int block = blocks[n * b + a];
+              const Block yy = at.rows(columns[1], a);
+              Eigen::Map<Block>{columnX + block} += at.rows(columns[0], a);
+              if (symmetric && a == b)
+                columnY[block + 1] += yy[1];
+              else
+                Eigen::Map<Block>{columnY + block} += yy;
+            }
+            continue;
+          }
           double* to[dim];
           for (int c = 0; c < dim; ++c) to[c] = first + start[equation[b] + c] - (symmetric ? c : 0);
           for (int a = 0; a < n; ++a) {
