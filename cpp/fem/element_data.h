@@ -30,12 +30,13 @@ struct ElementData {
     constexpr int others = dim * (Element::nodes - 1);
     const double* G = &gradients[others * point];
     std::array<double, dim * Element::nodes> all;
-    for (int k = 0; k < others; ++k) all[dim + k] = G[k];
-    for (int c = 0; c < dim; ++c) {
-      double sum = G[c];
-      for (int k = dim + c; k < others; k += dim) sum += G[k];
-      all[c] = -sum;
-    }
+    std::array<double, dim> sum{};
+    for (int k = 0; k < others; k += dim)
+      for (int c = 0; c < dim; ++c) {
+        all[dim + k + c] = G[k + c];
+        sum[c] += G[k + c];
+      }
+    for (int c = 0; c < dim; ++c) all[c] = -sum[c];
     return all;
   }
 };
@@ -118,8 +119,8 @@ class PlanePoint {
 
   [[nodiscard]] double weight() const { return weight_; }
   [[nodiscard]] double volume() const { return D_[0]; }
-  [[nodiscard]] Column volumeColumn() const { return ofVolume(D_[1], D_[2], beyond_.row[0]); }
-  [[nodiscard]] Column volumeRow() const { return ofVolume(D_[3], D_[6], beyond_.column[0]); }
+  [[nodiscard]] Column volumeColumn() const { return ofVolume(D_[1], D_[2], aboutAxis ? beyond_.row[0] : 0); }
+  [[nodiscard]] Column volumeRow() const { return ofVolume(D_[3], D_[6], aboutAxis ? beyond_.column[0] : 0); }
 
  private:
   /// D times the strains p, q, r and that around the axis.
@@ -147,7 +148,7 @@ class PlanePoint {
   double weight_;
   std::array<double, 2 * Element::nodes> G_;
   std::array<double, 9> D_;
-  BeyondModuli beyond_{};
+  BeyondModuli beyond_;
   const double* overRadius_ = nullptr;
 };
 
