@@ -31,18 +31,18 @@ double now() {
 
 void measure(int cells) {
   const Elasticity elasticity{1000, 0.3};
-  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
-  const auto held = [&](int label, int component) { return SpaceCondition{label, component, zero}; };
-  const SpaceDatum load = [](const SpacePoint& x, double t) { return -t * (1 + x.x()); };
+  const Datum zero = [](const SpacePoint&, double) { return 0.0; };
+  const auto held = [&](int label, int component) { return Condition{label, component, zero}; };
+  const Datum load = [](const SpacePoint& x, double t) { return -t * (1 + x.x()); };
   const double start = now();
   Model model;
   model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {cells, cells, cells}}),
                             elasticMaterial(elasticity, Plane::none),
-                            SpaceConditions{{held(4, spaceX), held(5, spaceY)}, {{3, spaceZ, load}}}, 2);
+                            Conditions{{held(4, alongX), held(5, alongY)}, {{3, alongZ, load}}}, 2);
   const int finer = cells * 13 / 12;
   model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {finer, finer, finer}}),
                             elasticMaterial(elasticity, Plane::none),
-                            SpaceConditions{{held(1, spaceX), held(1, spaceY), held(1, spaceZ)}, {}}, 2);
+                            Conditions{{held(1, alongX), held(1, alongY), held(1, alongZ)}, {}}, 2);
   const double bodies = now();
   addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
   const double coupled = now();
@@ -66,7 +66,7 @@ void measureCoupling(int cells) {
   Model model;
   const auto plate = [&](const char* name, double lower, int along) {
     model.bodies.emplace_back(name, cuboidMesh({{0, 0, lower}, {1, 1, lower + 0.1}, {along, along, 1}}),
-                              elasticMaterial({1000, 0.3}, Plane::none), SpaceConditions{}, 2);
+                              elasticMaterial({1000, 0.3}, Plane::none), Conditions{}, 2);
   };
   plate("upper", 0, cells);
   plate("lower", -0.1, cells * 13 / 12);
@@ -76,21 +76,20 @@ void measureCoupling(int cells) {
 }
 
 void countSets(int cells) {
-  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
-  const SpaceDatum approach = [](const SpacePoint&, double t) { return -0.02 * t; };
+  const Datum zero = [](const SpacePoint&, double) { return 0.0; };
+  const Datum approach = [](const SpacePoint&, double t) { return -0.02 * t; };
   const auto rounded = [&](TetrahedronMesh mesh) {
     for (SpacePoint& x : mesh.vertices) x.z() += (1 - x.z()) * x.head<2>().squaredNorm() / 6;
     return mesh;
   };
-  const auto held = [&](int label, int component) { return SpaceCondition{label, component, zero}; };
+  const auto held = [&](int label, int component) { return Condition{label, component, zero}; };
   Model model;
   model.bodies.emplace_back("ball", rounded(cuboidMesh({{0, 0, 0}, {1, 1, 1}, {cells, cells, cells / 2}})),
                             elasticMaterial({1000, 0.3}, Plane::none),
-                            SpaceConditions{{held(4, spaceX), held(5, spaceY), {3, spaceZ, approach}}, {}},
-                            1);
+                            Conditions{{held(4, alongX), held(5, alongY), {3, alongZ, approach}}, {}}, 1);
   model.bodies.emplace_back("block", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {cells + 3, cells + 3, cells / 2}}),
                             elasticMaterial({1000, 0.3}, Plane::none),
-                            SpaceConditions{{held(4, spaceX), held(5, spaceY), held(1, spaceZ)}, {}}, 1);
+                            Conditions{{held(4, alongX), held(5, alongY), held(1, alongZ)}, {}}, 1);
   addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
   StepSystem system(model, {});
   const State state = initialState(model);
@@ -123,10 +122,10 @@ void measureFlow(int cells) {
     const auto material = steps == 0 ? elasticMaterial(elasticity, Plane::none)
                                      : perzynaMaterial(elasticity, {10, 1}, Plane::none);
     const auto heldOn = [](int label, double lowered) {
-      SpaceConditions conditions;
-      for (const int c : {spaceX, spaceY, spaceZ})
+      Conditions conditions;
+      for (const int c : {alongX, alongY, alongZ})
         conditions.displacements.push_back({label, c, [lowered, c](const SpacePoint&, double t) {
-                                              return c == spaceZ ? -lowered * t : 0.0;
+                                              return c == alongZ ? -lowered * t : 0.0;
                                             }});
       return conditions;
     };

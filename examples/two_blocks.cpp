@@ -106,7 +106,7 @@ void solve(const char* name, CouplingKind kind, const Body& upper, const Body& l
 }  // namespace
 
 int main() {
-  const PrescribedDisplacement roller{left, alongX, constant(0)};
+  const Condition roller{left, alongX, constant(0)};
   const Body upper = block("upper", 3, {0, 0}, {{roller}, {{top, alongY, constant(-1)}}, {}});
   const Body lower = block("lower", 4, {0, -1}, {{roller, {bottom, alongY, constant(0)}}, {}, {}});
   solve("mortar", CouplingKind::mortar, upper, lower);

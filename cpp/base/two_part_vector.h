@@ -60,11 +60,6 @@ struct TwoPartVector {
     return *this;
   }
 
-  /// The component of the vector at rows i, i + 1 along a unit vector; the one across it stays.
-  void setAlong(Eigen::Index i, const Point& direction, double value) {
-    high.segment<2>(i) += (value - direction.dot(high.segment<2>(i))) * direction;
-    low.segment<2>(i) -= direction.dot(low.segment<2>(i)) * direction;
-  }
   void set(Eigen::Index i, double value) {
     high[i] = value;
     low[i] = 0;

@@ -25,14 +25,16 @@ inline Point turned(const Point& v) {
   return {-v.y(), v.x()};
 }
 
+inline SpacePoint asSpacePoint(const Point& x) {
+  return {x.x(), x.y(), 0};
+}
+
 /// The third component of the vector product.
 inline double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// A datum that varies in space and time: f(x [m], y [m], t [s]).
+/// A datum of the plane that varies in space and time: f(x [m], y [m], t [s]).
 using Function = std::function<double(double x, double y, double t)>;
-/// The same in space: f(x [m], t [s]).
-using SpaceDatum = std::function<double(const SpacePoint& x, double t)>;
 
 }  // namespace mortier

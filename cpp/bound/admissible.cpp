@@ -22,7 +22,7 @@ std::string Admissible::foreseen(const Model& model, const State& state) {
 std::string Admissible::place(const State& state, std::vector<SideDatum>& distances) {
   for (const Body& body : model.bodies) {
     if (body.degree() != 1) return "displacements are quadratic";
-    for (const PrescribedDisplacement& held : body.conditions().displacements)
+    for (const Condition& held : body.conditions().displacements)
       if (held.point) return body.name() + " is held at a point";
   }
   meshes = matchedMeshes(model, state.time);

@@ -149,14 +149,14 @@ class Reading {
              : component == alongNormal ? beside.outward()
                                         : Point(beside.along().normalized());
     };
-    for (const PrescribedDisplacement& held : place_.body.conditions().displacements) {
+    for (const Condition& held : place_.body.conditions().displacements) {
       if (held.label != label) continue;
       const std::optional<Point> along = heldAlong(side, direction(held.component));
       if (!along) data_.curvedSupport = true;
       hold(known, along.value_or(direction(held.component)));
       readDisplacement(e, along.value_or(direction(held.component)), held.value);
     }
-    for (const Traction& traction : place_.body.conditions().tractions)
+    for (const Condition& traction : place_.body.conditions().tractions)
       if (traction.label == label) readTraction(e, beside, direction(traction.component), traction.value);
   }
 
@@ -211,14 +211,15 @@ class Reading {
                                        [](const NodeSupport& each, int node) { return each.node < node; });
       if (at == supports.end() || at->node != vertex) return std::nullopt;
       const auto end = at->directions.begin() + at->count;
-      const auto own = std::find_if(at->directions.begin(), end, [&](const Point& each) {
-        return std::abs(cross(each, direction)) <= nearly;
+      const auto own = std::find_if(at->directions.begin(), end, [&](const SpacePoint& each) {
+        return std::abs(cross(each.head<2>(), direction)) <= nearly;
       });
       const bool one = at->count == 1;
       if (own == end && one) return std::nullopt;
       if (own == end || (found && !one)) continue;
-      if (alone && !isAlong(*found, *own)) return std::nullopt;
-      found = own->dot(direction) > 0 ? *own : Point(-*own);
+      const Point along = own->head<2>();
+      if (alone && !isAlong(*found, along)) return std::nullopt;
+      found = along.dot(direction) > 0 ? along : Point(-along);
       alone = one;
     }
     return found ? found : direction;

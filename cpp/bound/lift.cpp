@@ -158,7 +158,7 @@ class Lifting {
     if (at < 0) return direction;
     const NodeSupport& support = bodies_[body]->body.supports().nodes()[at];
     if (support.count == 2) return {0, 0};
-    const Point& held = support.directions[0];
+    const Point held = support.directions[0].head<2>();
     return direction - direction.dot(held) / held.squaredNorm() * held;
   }
 

@@ -250,12 +250,12 @@ void cutLoaded(const Edge& edge, const Point& a, const Point& b, const Datum& va
 void cutLoaded(const Body& body, double t, Cuts& cuts) {
   const TriangleMesh& mesh = body.mesh();
   const auto& conditions = body.conditions();
-  for (const Traction& traction : conditions.tractions)
+  for (const Condition& traction : conditions.tractions)
     for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
       const int label = mesh.boundaryLabels[e];
       if (label != traction.label ||
           std::any_of(conditions.displacements.begin(), conditions.displacements.end(),
-                      [&](const PrescribedDisplacement& held) { return held.actsOn(label); }))
+                      [&](const Condition& held) { return held.actsOn(label); }))
         continue;
       const auto& [a, b] = mesh.boundaryEdges[e];
       cutLoaded({a, b}, mesh.vertices[a], mesh.vertices[b], traction.value, t, cuts);

@@ -32,7 +32,7 @@ std::string reactionValues(const Quantity& quantity, const Body& body, Vector& z
     const bool own = mesh.boundaryLabels[k] == quantity.label;
     const auto& [a, b] = mesh.boundaryEdges[k];
     const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
-    for (const PrescribedDisplacement& held : body.conditions().displacements) {
+    for (const Condition& held : body.conditions().displacements) {
       if (held.label != mesh.boundaryLabels[k]) continue;
       const Point d = held.component == Component::alongX        ? Point(1, 0)
                       : held.component == Component::alongY      ? Point(0, 1)

@@ -74,9 +74,9 @@ std::string freefemConditions(const SceneDescription& scene, const Model& model,
     }
     const bool simpson = linear && c.value.value.degree <= LinearTriangle::edgeExact;
     const bool rough = !space && c.value.value.degree > QuadraticTriangle::edgeExact;
-    const std::string direction = space && c.component == spaceNormal    ? "(N.x*v1 + N.y*v2 + N.z*v3)"
-                                  : !space && c.component == alongNormal ? "(N.x*v1 + N.y*v2)"
-                                                                         : "v" + component;
+    const std::string direction = c.component != alongNormal ? "v" + component
+                                  : space                    ? "(N.x*v1 + N.y*v2 + N.z*v3)"
+                                                             : "(N.x*v1 + N.y*v2)";
     loads += simpson ? "+ simpson(" + n + ", " + label + ", (" + value + ")*" + direction + ") "
                      : (space ? "+ int2d(Body" : "+ int1d(Body") + n + ", " + label +
                            (rough ? ", qfe = qf5pE)((" : ")((") + value + ")*" + direction + own + ") ";

@@ -161,7 +161,7 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
     if (body.material.anisotropy) refuse(body.material.anisotropy->where, "\"isotropic\"");
     for (const ConditionDescription& c : body.conditions) {
       if (c.pointInSpace) refuse(c.where + ": body " + body.name + ": a support at a point", "labels");
-      if (c.kind == Kind::displacement && c.component == spaceNormal)
+      if (c.kind == Kind::displacement && c.component == alongNormal)
         refuse(c.where + ": body " + body.name + ": un", "ux, uy or uz");
     }
   }

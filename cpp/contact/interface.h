@@ -71,10 +71,10 @@ struct InterfaceOptions {
   double stiffness = 1;       ///< of the nonmortar over that of the mortar body: where rows follow
   /// Of the mortar body in a half-plane, 1/E or (1 - nu^2)/E; 0 where it is held [1/Pa].
   double mortarCompliance = 0;
-  bool stabilised = false;     ///< whether conditions are (Stabilisation)
-  bool follows = false;        ///< whether rows follow the bodies (follow()); not with a `gap`
-  SpaceDatum gapInSpace = {};  ///< in place of `gap` and `gapInTime`
-  bool gapMoves = false;       ///< whether that changes in time
+  bool stabilised = false;  ///< whether conditions are (Stabilisation)
+  bool follows = false;     ///< whether rows follow the bodies (follow()); not with a `gap`
+  Datum gapInSpace = {};    ///< in place of `gap` and `gapInTime`
+  bool gapMoves = false;    ///< whether that changes in time
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero. Stored by
@@ -97,7 +97,7 @@ struct SpaceInterfaceOptions {
   using Held = std::function<bool(int node, const SpacePoint& direction)>;
   Held nonmortarHeld = {};
   Held mortarHeld = {};
-  SpaceDatum gap = {};  ///< distance at a nonmortar node instead of that as meshed [m]
+  Datum gap = {};  ///< distance at a nonmortar node instead of that as meshed [m]
   bool gapMoves = false;
   double mortarCompliance = 0;  ///< of the mortar body in a half-space, (1 - nu^2)/E [1/Pa]
   bool stabilised = false;
@@ -294,7 +294,7 @@ class ContactInterface {
   Vector distance_;
   bool distanceIsGiven_ = false;
   Datum given_;
-  SpaceDatum gapInTime_;
+  Datum gapInTime_;
   std::vector<std::pair<int, SpacePoint>> gapNodes_;  ///< where it is given, with their places
   Eigen::SparseMatrix<double> N_;                     ///< g0 = N times what is given by node
   bool axisymmetric_ = false;

@@ -20,14 +20,28 @@ std::array<Point, Element::nodes> placesOf(const ElementNodes& nodes, size_t tri
 }
 
 Conditions withAxisHeld(Conditions conditions) {
-  conditions.displacements.push_back(heldOnAxis());
+  conditions.displacements.insert(conditions.displacements.begin(), heldOnAxis());
   return conditions;
 }
 
-void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) {
-  if (std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), label) == mesh.boundaryLabels.end())
-    throw InputError("body " + body + ": label = " + std::to_string(label) +
-                     ", expected a boundary label of " + mesh.name);
+template <class Mesh>
+void requirePlaces(const Mesh& mesh, const std::string& body, const Conditions& conditions) {
+  for (const auto* each : {&conditions.displacements, &conditions.tractions})
+    for (const Condition& condition : *each) {
+      const auto place = [&] {
+        if constexpr (std::is_same_v<Mesh, TriangleMesh>)
+          return Point(condition.point->template head<2>());
+        else
+          return *condition.point;
+      };
+      if (condition.point && vertexAt(mesh, place()) < 0)
+        throw InputError("body " + body + ": a point that is held is no vertex of " + mesh.name);
+      if (!condition.point && !condition.onAxis &&
+          std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), condition.label) ==
+              mesh.boundaryLabels.end())
+        throw InputError("body " + body + ": label = " + std::to_string(condition.label) +
+                         ", expected a boundary label of " + mesh.name);
+    }
 }
 
 }  // namespace
@@ -42,12 +56,7 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
       supports_(mesh_, nodes_, conditions_.displacements),
       axisymmetric_(axisymmetric),
       extent_(mortier::extent(mesh_)) {
-  for (const auto& condition : conditions_.displacements)
-    if (!condition.point && !condition.onAxis)
-      requireLabel(mesh_, name_, condition.label);
-    else if (condition.point && vertexAt(mesh_, *condition.point) < 0)
-      throw InputError("body " + name_ + ": a point that is held is no vertex of " + mesh_.name);
-  for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
+  requirePlaces(mesh_, name_, conditions_);
   if (rigid()) {
     findMotions();
     return;
@@ -81,21 +90,21 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
   });
   if (averaged)
     patches_.emplace(volumePatches(mesh_, degree), nodes_, places(), weights_, gradients_, hoops_);
-  numberEquations();
   findSteadyLoads();
 }
 
 Body::Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
-           SpaceConditions conditions, int degree, bool averaged)
+           Conditions conditions, int degree, bool averaged)
     : name_(std::move(name)),
-      space_(
-          std::make_shared<SpaceElements>(name_, std::move(mesh), std::move(conditions), degree, averaged)),
+      space_(std::make_shared<SpaceElements>(std::move(mesh), degree, averaged)),
       material_(std::move(material)),
-      equations_(space_->equations()),
+      conditions_(std::move(conditions)),
+      supports_(space_->mesh(), space_->nodes(), conditions_.displacements),
       weights_(space_->weights()),
       largestGradient_(space_->largestGradient()),
-      extent_(mortier::extent(space_->mesh())),
-      freeDofs_(space_->freeDofs()) {}
+      extent_(mortier::extent(space_->mesh())) {
+  requirePlaces(space_->mesh(), name_, conditions_);
+}
 
 double Body::largestCoordinate() const {
   double largest = 0;
@@ -107,8 +116,7 @@ double Body::largestCoordinate() const {
 
 SpacePoint Body::placeOfNode(int node) const {
   if (space_) return space_->nodes().places[node];
-  const Point& place = nodes_.places[node];
-  return {place.x(), place.y(), 0};
+  return asSpacePoint(nodes_.places[node]);
 }
 
 SpacePoint Body::centreOf(size_t element) const {
@@ -140,14 +148,8 @@ SpacePoint Body::placeOfPoint(int point) const {
   return withElement(degree(), [&](auto element) -> SpacePoint {
     using Element = decltype(element);
     const auto data = Element::tabulate(placesOf<Element>(nodes_, point / Element::points));
-    const Point& place = data.places[point % Element::points];
-    return {place.x(), place.y(), 0};
+    return asSpacePoint(data.places[point % Element::points]);
   });
-}
-
-const TangentAssembly& Body::assembly() const {
-  if (!assembly_) assembly_.emplace(triangleData(), frameOf_, freeDofs_, material_->symmetricTangent());
-  return *assembly_;
 }
 
 int Body::pointsOfTriangle() const {
@@ -167,101 +169,30 @@ std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& 
   return places;
 }
 
-void Body::numberEquations() {
-  equations_.assign(dofs(), 0);
-  for (const NodeSupport& support : supports_.nodes()) {
-    const Point& d = support.directions[0];
-    if (support.count == 2) equations_[2 * support.node] = equations_[2 * support.node + 1] = -1;
-    // A turned node has its normal first.
-    if (support.count == 1) equations_[2 * support.node + (d.x() == 0 ? 1 : 0)] = -1;
-    if (!support.turned()) continue;
-    if (frameOf_.empty()) frameOf_.assign(nodes(), -1);
-    frameOf_[support.node] = static_cast<int>(frames_.size());
-    frames_.push_back(Eigen::Matrix2d{{d.x(), d.y()}, {-d.y(), d.x()}});
-  }
-  for (int& equation : equations_)
-    if (equation >= 0) equation = freeDofs_++;
-}
-
 std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {
-  const int frame = frameOf_.empty() ? -1 : frameOf_[node];
-  const Point turned = frame < 0 ? vector : Point(frames_[frame] * vector);
-  return {Part{equations_[2 * node], turned.x()}, Part{equations_[2 * node + 1], turned.y()}};
+  const auto [x, y, z] = parts(node, asSpacePoint(vector));
+  return {x, y};
 }
 
 std::array<Body::Part, 3> Body::parts(int node, const SpacePoint& vector) const {
-  if (!space_) {
-    const auto [x, y] = parts(node, Point(vector.head<2>()));
-    return {x, y, Part{}};
-  }
-  const SpacePoint turned = space_->inFrame(node, vector);
-  return {Part{equations_[3 * node], turned.x()}, Part{equations_[3 * node + 1], turned.y()},
-          Part{equations_[3 * node + 2], turned.z()}};
-}
-
-Vector Body::gather(const Vector& nodal) const {
-  if (space_) return space_->gather(nodal);
-  if (rigid()) return freeMotions_.transpose() * nodal;
-  Vector x(freeDofs());
-  for (int dof = 0; dof < dofs(); ++dof)
-    if (equations_[dof] >= 0) x[equations_[dof]] = nodal[dof];
-  for (const NodeSupport& support : supports_.nodes()) {
-    if (!support.turned()) continue;
-    const Point vector = nodal.segment<2>(2 * support.node);
-    for (const auto& [equation, value] : parts(support.node, vector))
-      if (equation >= 0) x[equation] = value;
-  }
-  return x;
-}
-
-Vector Body::spread(const Vector& x) const {
-  if (space_) return space_->spread(x);
-  if (rigid()) return freeMotions_ * x;
-  Vector nodal = Vector::Zero(dofs());
-  for (int dof = 0; dof < dofs(); ++dof)
-    if (equations_[dof] >= 0) nodal[dof] = x[equations_[dof]];
-  for (const NodeSupport& support : supports_.nodes())
-    if (support.turned())
-      nodal.segment<2>(2 * support.node) =
-          frames_[frameOf_[support.node]].row(1).transpose() * x[equations_[2 * support.node + 1]];
-  return nodal;
-}
-
-std::array<double, 2> Body::prescribedAt(const NodeSupport& support, double t) const {
-  const Point& x = nodes_.places[support.node];
-  std::array<double, 2> values{0, 0};
-  for (int i = 0; i < support.count; ++i)
-    values[i] = conditions_.displacements[support.conditions[i]].value(x.x(), x.y(), t);
-  return values;
+  const Eigen::Matrix3d* frame = supports_.frameOf(node);
+  const SpacePoint own = frame == nullptr ? vector : SpacePoint(*frame * vector);
+  std::array<Part, 3> parts;
+  for (int c = 0; c < dimension(); ++c) parts[c] = {equations()[dimension() * node + c], own[c]};
+  return parts;
 }
 
 void Body::prescribe(double t, Vector& u) const {
-  if (space_) return space_->prescribe(t, u);
   if (rigid()) u = withHeld(heldAt(t), u);
-  for (const NodeSupport& support : supports_.nodes())
-    u.segment<2>(2 * support.node) =
-        prescribed(support, prescribedAt(support, t), u.segment<2>(2 * support.node));
+  supports_.prescribe(conditions_.displacements, t, u);
 }
 
 void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) const {
-  if (space_) return space_->prescribeIncrement(t0, t1, increment);
   if (rigid()) {
     increment.high = withHeld(heldAt(t1) - heldAt(t0), increment.value());
     increment.low.setZero();
   }
-  for (const NodeSupport& support : supports_.nodes()) {
-    const int dof = 2 * support.node;
-    const auto [a0, b0] = prescribedAt(support, t0);
-    const auto [a1, b1] = prescribedAt(support, t1);
-    const Point change = prescribed(support, {a1 - a0, b1 - b0}, Point::Zero());
-    const Point& n = support.directions[0];
-    if (support.turned()) {
-      increment.setAlong(dof, n, n.dot(change));
-      continue;
-    }
-    for (const int c : {0, 1})
-      if (support.count == 2 || n[c] != 0) increment.set(dof + c, change[c]);
-  }
+  supports_.prescribeIncrement(conditions_.displacements, t0, t1, increment);
 }
 
 }  // namespace mortier

@@ -13,28 +13,28 @@
 #include "base/types.h"
 #include "fem/space_elements.h"
 #include "fem/supports.h"
-#include "fem/tangent_assembly.h"
+#include "linear/condensing_solver.h"
 #include "material/material.h"
 #include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
 
-/// Surface force per length on a labelled boundary along a direction (Component) [N/m per metre of depth,
-/// Pa]; a pressure p is the normal traction -p.
-struct Traction {
-  int label = 0;
-  int component = 0;
-  Datum value;
-};
+class TangentAssembly;
 
 /// Force per volume, one component [N/m^3].
 struct BodyForce {
   int component = 0;
-  Datum value;
+  Datum value = {};
 };
 
-using InitialStress = InitialStressOf<Datum>;
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain, around the axis or in
+/// space, 4: s13, 5: s23), in a region or everywhere [Pa]; later ones replace earlier ones.
+struct InitialStress {
+  int component = 0;
+  std::optional<int> region;
+  Datum value = {};
+};
 
 /// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
 /// Its displacements are those of linear theory, u = theta x (x - at): rows of contact keep their normals, so
@@ -48,9 +48,9 @@ struct RigidMotion {
 };
 
 struct Conditions {
-  std::vector<PrescribedDisplacement> displacements;
-  std::vector<Traction> tractions;
-  std::vector<BodyForce> forces;
+  std::vector<Condition> displacements = {};
+  std::vector<Condition> tractions = {};
+  std::vector<BodyForce> forces = {};
   std::vector<InitialStress> initialStresses = {};
   Datum temperature = {};  ///< above that at which nothing is strained [K]
   /// Thermal strain per kelvin, components of the tensor x points [1/K]; empty where there is no temperature.
@@ -60,6 +60,9 @@ struct Conditions {
 
 /// Places of the quadrature points of all triangles, one triangle after the other [m].
 std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes);
+inline std::vector<Point> placesOfPoints(const TriangleMesh& mesh, int degree) {
+  return placesOfPoints(mesh, elementNodes(mesh, degree));
+}
 
 class Body {
  public:
@@ -74,7 +77,7 @@ class Body {
   /// A body in space. Of what follows below, what refers to triangles, axes of revolution and rigid motions
   /// is of the plane, and empty. \throws InputError
   Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
-       SpaceConditions conditions, int degree, bool averaged = false);
+       Conditions conditions, int degree, bool averaged = false);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   /// 2 or 3: components of a displacement. A dof is dimension() node + component.
@@ -121,10 +124,9 @@ class Body {
   /// Places of the points of triangles [m].
   [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
 
-  // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
-  // the tangent of a turned support.
+  // Equations (Supports).
 
-  [[nodiscard]] int freeDofs() const { return freeDofs_; }
+  [[nodiscard]] int freeDofs() const { return supports_.freeDofs(); }
 
   /// Whether it does not strain. Then it has no points, no tangent and no equations of nodes: its free dofs
   /// are the motions that are not prescribed, and gather() takes the work of nodal forces on them.
@@ -148,7 +150,7 @@ class Body {
                                                           const std::vector<int>& nodes) const;
 
   /// Equation of each dof; -1 where that motion is prescribed.
-  [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
+  [[nodiscard]] const std::vector<int>& equations() const { return supports_.equations(); }
   /// A vector at a node by the equations of the node (-1 where prescribed).
   struct Part {
     int equation = -1;
@@ -158,9 +160,13 @@ class Body {
   /// The same in space; in the plane the third part is nothing.
   [[nodiscard]] std::array<Part, 3> parts(int node, const SpacePoint& vector) const;
   /// Nodal vectors (dofs) to equations; what acts along prescribed motions is left out.
-  [[nodiscard]] Vector gather(const Vector& nodal) const;
+  [[nodiscard]] Vector gather(const Vector& nodal) const {
+    return rigid() ? Vector(freeMotions_.transpose() * nodal) : supports_.gather(nodal);
+  }
   /// The reverse: dofs, nothing along prescribed motions.
-  [[nodiscard]] Vector spread(const Vector& x) const;
+  [[nodiscard]] Vector spread(const Vector& x) const {
+    return rigid() ? Vector(freeMotions_ * x) : supports_.spread(x);
+  }
 
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Supports& supports() const { return supports_; }
@@ -179,12 +185,10 @@ class Body {
   /// Stress at t = 0 (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
   /// Whether the body has a temperature that strains it.
-  [[nodiscard]] bool heated() const { return expansion().rows() > 0; }
+  [[nodiscard]] bool heated() const { return conditions_.expansion.rows() > 0; }
   /// Thermal strain at time t (components x points) [-]. \pre heated()
   [[nodiscard]] Matrix thermalStrain(double t) const;
-  [[nodiscard]] bool hasInitialStress() const {
-    return !conditions_.initialStresses.empty() || (space_ && !space_->conditions().initialStresses.empty());
-  }
+  [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
   /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where
@@ -200,19 +204,12 @@ class Body {
 
   /// Pattern of the tangent over equations; symmetric where the material's tangent is. It is found when the
   /// tangent is first asked for: not to be called first by several threads at once.
-  [[nodiscard]] const SparsePattern& pattern() const {
-    return space_ ? space_->pattern(material_->symmetricTangent()) : assembly().pattern();
-  }
-  /// K = sum |T| B' H^-1 B (moduli 9 or 6 x points) as values of pattern().
-  void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const {
-    tangent(TangentModuli{moduli}, values, threads);
-  }
-  /// The same with what strains around the axis need.
+  [[nodiscard]] const SparsePattern& pattern() const;
+  /// K = sum |T| B' H^-1 B as values of pattern(). \param moduli  those of Linearisation; about an axis that
+  /// is asked for
+  void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const;
   void tangent(const Linearisation& law, std::vector<double>& values,
-               Threads& threads = Threads::none()) const {
-    if (space_) return space_->tangent(law.moduli, values, threads);
-    tangent(TangentModuli{law.moduli, axisymmetric_ ? &law.beyond : nullptr}, values, threads);
-  }
+               Threads& threads = Threads::none()) const;
 
  private:
   void findMotions();
@@ -220,37 +217,21 @@ class Body {
   [[nodiscard]] Vector withHeld(const Eigen::Vector3d& held, const Vector& displacement) const;
   [[nodiscard]] Eigen::Vector3d heldAt(double t) const;
   [[nodiscard]] Vector rigidLoad(double t) const;
-  void numberEquations();
   [[nodiscard]] const TangentAssembly& assembly() const;
-  /// By the directions of a support [m].
-  [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
-  [[nodiscard]] TriangleData triangleData() const {
-    return {nodes_, equations_, weights_, gradients_, hoops_, patches()};
-  }
-  void tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  /// Of a triangle, in the frames of its nodes.
-  template <class Element>
-  [[nodiscard]] Eigen::Matrix<double, 2 * Element::nodes, 2 * Element::nodes> triangleTangent(
-      int triangle, const TangentModuli& moduli) const;
-  template <class Element>
-  void addOthers(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  template <class Element>
-  void addPatches(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
+  /// Calls work(ElementData) with its triangles or tetrahedra.
+  template <class Work>
+  auto withElements(const Work& work) const;
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>
   void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   // Of data that do not change and the rule of the element does not integrate, or of all others.
+  [[nodiscard]] Vector spaceLoad(double t) const;
   void addTractions(double t, Vector& f, bool steady) const;
   void addForces(double t, Vector& f, bool steady) const;
   void findSteadyLoads();
-  /// A datum at the points of the triangles: its projection onto what stresses can be.
+  /// A datum at the points: in the plane its projection onto what stresses can be.
   [[nodiscard]] Vector atPoints(const Datum& datum, double t) const;
-  /// Its values there, in space.
-  [[nodiscard]] Vector atPoints(const SpaceDatum& datum, double t) const;
-  [[nodiscard]] const Matrix& expansion() const {
-    return space_ ? space_->conditions().expansion : conditions_.expansion;
-  }
 
   std::string name_;
   std::shared_ptr<const SpaceElements> space_;  ///< null in the plane
@@ -259,9 +240,6 @@ class Body {
   std::shared_ptr<const Material> material_;
   Conditions conditions_;
   Supports supports_;
-  std::vector<int> equations_;
-  std::vector<Eigen::Matrix2d> frames_;  ///< rows normal and tangent, of the turned supports
-  std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
   std::vector<double> weights_;
   std::vector<double>
       gradients_;  ///< of all shape functions of a triangle but the first, over sqrt2, by points
@@ -275,8 +253,7 @@ class Body {
   double largestGradient_ = 0;
   double extent_ = 0;
   Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none
-  int freeDofs_ = 0;
-  mutable std::optional<TangentAssembly> assembly_;
+  mutable std::shared_ptr<const TangentAssembly> assembly_;
 };
 
 }  // namespace mortier

@@ -3,7 +3,8 @@
 #include "base/lanes.h"
 #include "base/two_part_vector.h"
 #include "fem/body.h"
-#include "fem/element.h"
+#include "fem/element_data.h"
+#include "fem/tangent_assembly.h"
 
 namespace mortier {
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
@@ -14,59 +15,77 @@ namespace mortier {
 // Where the volumetric strain is averaged, p is the sum of the polynomials of the patch less the
 // circumference over sqrt2 (fem/volume_patches.h).
 
+template <class Work>
+auto Body::withElements(const Work& work) const {
+  if (!space_) return work(ElementData<2>{nodes_, weights_, gradients_, hoops_, patches()});
+  return work(ElementData<3>{space_->nodes(), weights_, space_->gradients(), hoops_, patches()});
+}
+
 Vector Body::internalForce(const Matrix& stress) const {
-  if (space_) return space_->internalForce(stress);
-  const TriangleData triangles = triangleData();
   Vector f = Vector::Zero(dofs());
-  const int terms = patches_ ? patches_->terms() : 0;
-  std::vector<double> ofPatches(patches_ ? static_cast<size_t>(terms) * patches_->count() : 0, 0.0);
-  withElement(degree(), [&](auto element) {
-    using Element = decltype(element);
-    for (size_t i = 0; i < weights_.size(); ++i) {
-      const int* triangle = &nodes_.triangles[Element::nodes * (i / Element::points)];
-      const auto column = static_cast<Eigen::Index>(i);
-      double hoop = axisymmetric_ ? weights_[i] * stress(3, column) : 0;
-      double p = weights_[i] * stress(0, column);
-      const double q = weights_[i] * stress(1, column);
-      const double r = weights_[i] * stress(2, column);
-      const auto G = triangles.gradientsOf<Element>(i);
-      if (patches_) {
-        const double* basis = patches_->basis(static_cast<int>(i));
-        double* ofPatch = &ofPatches[static_cast<size_t>(terms) * patches_->patchOf()[i / Element::points]];
-        for (int k = 0; k < terms; ++k) ofPatch[k] += p * basis[k];
-        hoop -= overRoot2 * p;
-        p = 0;
+  const int terms = patches() != nullptr ? patches()->terms() : 0;
+  std::vector<double> ofPatches(patches() != nullptr ? static_cast<size_t>(terms) * patches()->count() : 0);
+  withElements([&]<int dim>(const ElementData<dim>& elements) {
+    withPointsOf(elements, [&](auto point) {
+      using At = typename decltype(point)::type;
+      using Element = typename At::Element;
+      for (int i = 0; i < points(); ++i) {
+        const int* nodes = elements.nodes.of(static_cast<size_t>(i) / Element::points);
+        const At at(elements, i);
+        const auto force = at.force(stress, i);
+        for (int a = 0; a < Element::nodes; ++a)
+          f.segment<dim>(static_cast<Eigen::Index>(dim) * nodes[a]) += at.rows(force, a);
+        if (elements.patches == nullptr) continue;
+        const double* basis = elements.patches->basis(i);
+        const int patch = elements.patches->patchOf()[i / Element::points];
+        for (int k = 0; k < terms; ++k)
+          ofPatches[static_cast<size_t>(terms) * patch + k] += at.volumeForce(stress, i) * basis[k];
       }
-      for (int a = 0; a < Element::nodes; ++a) {
-        f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
-        f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
-      }
-      if (!axisymmetric_) continue;
-      for (int a = 0; a < Element::nodes; ++a) f[2 * triangle[a]] += hoop * hoops_[Element::nodes * i + a];
-    }
+    });
   });
-  if (patches_) patches_->addForces(ofPatches, f);
+  if (patches() != nullptr) patches()->addForces(ofPatches, f);
   return f;
 }
 
 double Body::largestForce(const Matrix& stress) const {
-  if (space_) return space_->largestForce(stress);
-  const TriangleData triangles = triangleData();
-  double largest = 0;
-  withElement(degree(), [&](auto element) {
-    using Element = decltype(element);
-    for (size_t i = 0; i < weights_.size(); ++i) {
-      double steepest = 0;
-      for (const double gradient : triangles.gradientsOf<Element>(i))
-        steepest = std::max(steepest, std::abs(gradient));
-      const double most = stress.col(static_cast<Eigen::Index>(i)).head<3>().cwiseAbs().maxCoeff();
-      largest = std::max(largest, weights_[i] * steepest * most);
-      for (size_t a = Element::nodes * i; axisymmetric_ && a < Element::nodes * (i + 1); ++a)
-        largest =
-            std::max(largest, weights_[i] * std::abs(hoops_[a] * stress(3, static_cast<Eigen::Index>(i))));
-    }
+  return withElements([&]<int dim>(const ElementData<dim>& elements) {
+    return withElementIn<dim>(elements.nodes.degree, [&](auto element) {
+      using Element = decltype(element);
+      double largest = 0;
+      for (size_t i = 0; i < weights_.size(); ++i) {
+        const auto column = stress.col(static_cast<Eigen::Index>(i));
+        double steepest = 0;
+        for (const double gradient : elements.template gradientsOf<Element>(i))
+          steepest = std::max(steepest, std::abs(gradient));
+        const double most = column.template head<3 * dim - 3>().cwiseAbs().maxCoeff();
+        largest = std::max(largest, weights_[i] * steepest * most);
+        for (size_t a = Element::nodes * i; axisymmetric_ && a < Element::nodes * (i + 1); ++a)
+          largest = std::max(largest, weights_[i] * std::abs(hoops_[a] * column[3]));
+      }
+      return largest;
+    });
   });
-  return largest;
+}
+
+const SparsePattern& Body::pattern() const {
+  if (!assembly_)
+    withElements([&](const auto& elements) {
+      assembly_ = std::make_shared<const TangentAssembly>(elements, supports_, material_->symmetricTangent());
+    });
+  return assembly_->pattern();
+}
+
+void Body::tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads) const {
+  static_cast<void>(pattern());
+  withElements(
+      [&](const auto& elements) { assembly_->assemble(elements, supports_, {moduli}, values, threads); });
+}
+
+void Body::tangent(const Linearisation& law, std::vector<double>& values, Threads& threads) const {
+  static_cast<void>(pattern());
+  withElements([&](const auto& elements) {
+    assembly_->assemble(elements, supports_, {law.moduli, &law.beyond}, values, threads);
+  });
 }
 
 void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {

@@ -6,6 +6,7 @@
 #include "fem/body.h"
 #include "fem/data_misfit.h"
 #include "fem/element.h"
+#include "fem/tetrahedron.h"
 #include "material/stress.h"
 
 namespace mortier {
@@ -45,11 +46,55 @@ Point directed(int component, const Point& along) {
 }  // namespace
 
 Vector Body::load(double t) const {
-  if (space_) return space_->load(t);
+  if (space_) return spaceLoad(t);
   Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
   addTractions(t, f, false);
   addForces(t, f, false);
   if (rigid()) f += rigidLoad(t);
+  return f;
+}
+
+Vector Body::spaceLoad(double t) const {
+  const SpaceNodes& nodes = space_->nodes();
+  const TetrahedronMesh& mesh = space_->mesh();
+  Vector f = Vector::Zero(dofs());
+  const std::vector<SpaceRulePoint> onTriangle = triangleRule();
+  for (const Condition& traction : conditions_.tractions)
+    for (size_t i = 0; i < nodes.faces.size(); ++i) {
+      if (mesh.boundaryLabels[i] != traction.label) continue;
+      const std::array<int, 6>& face = nodes.faces[i];
+      const SpacePoint& x0 = nodes.places[face[0]];
+      const SpacePoint e1 = nodes.places[face[1]] - x0;
+      const SpacePoint e2 = nodes.places[face[2]] - x0;
+      const SpacePoint area = e1.cross(e2);
+      const SpacePoint direction = traction.component == alongNormal
+                                       ? area
+                                       : SpacePoint(area.norm() * SpacePoint::Unit(traction.component));
+      for (const auto& [at, weight] : onTriangle) {
+        const double value = weight * traction.value(x0 + at.x() * e1 + at.y() * e2, t);
+        const std::array<double, 6> N = faceShapes(nodes.degree, at.x(), at.y());
+        for (int a = 0; a < nodes.perFace(); ++a)
+          f.segment<3>(3 * static_cast<Eigen::Index>(face[a])) += value * N[a] * direction;
+      }
+    }
+  const std::vector<SpaceRulePoint> inTetrahedron = tetrahedronRule();
+  for (const BodyForce& force : conditions_.forces)
+    withSpaceElement(nodes.degree, [&](auto element) {
+      using Element = decltype(element);
+      for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
+        const int* own = nodes.of(e);
+        const SpacePoint& x0 = nodes.places[own[0]];
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) edges.col(k) = nodes.places[own[k + 1]] - x0;
+        const double determinant = edges.determinant();
+        for (const auto& [at, weight] : inTetrahedron) {
+          const double value = weight * determinant * force.value(x0 + edges * at, t);
+          const auto N = Element::shapes({1 - at.sum(), at.x(), at.y(), at.z()});
+          for (int a = 0; a < Element::nodes; ++a)
+            f[3 * static_cast<Eigen::Index>(own[a]) + force.component] += value * N[a];
+        }
+      }
+    });
   return f;
 }
 
@@ -138,9 +183,8 @@ void Body::addForces(double t, Vector& f, bool steady) const {
 
 Vector Body::atPoints(const Datum& datum, double t) const {
   Vector values(points());
-  if (datum.degree <= 1) {
-    const std::vector<Point> places = this->places();
-    for (int i = 0; i < points(); ++i) values[i] = datum(places[i].x(), places[i].y(), t);
+  if (space_ || datum.degree <= 1) {
+    for (int i = 0; i < points(); ++i) values[i] = datum(placeOfPoint(i), t);
     return values;
   }
   withElement(degree(), [&](auto element) {
@@ -156,22 +200,11 @@ Vector Body::atPoints(const Datum& datum, double t) const {
   return values;
 }
 
-Vector Body::atPoints(const SpaceDatum& datum, double t) const {
-  Vector values(points());
-  for (int i = 0; i < points(); ++i) values[i] = datum(space_->placeOf(i), t);
-  return values;
-}
-
 Matrix Body::thermalStrain(double t) const {
   Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
   Vector kelvin(points());
-  if (space_) {
-    kelvin = atPoints(space_->conditions().temperature, t);
-  } else {
-    const std::vector<Point> places = this->places();
-    for (int i = 0; i < points(); ++i) kelvin[i] = conditions_.temperature(places[i].x(), places[i].y(), t);
-  }
-  strain.topRows(expansion().rows()) = expansion() * kelvin.asDiagonal();
+  for (int i = 0; i < points(); ++i) kelvin[i] = conditions_.temperature(placeOfPoint(i), t);
+  strain.topRows(conditions_.expansion.rows()) = conditions_.expansion * kelvin.asDiagonal();
   // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
   if (patches_) {
     Vector theta = std::numbers::sqrt2 * strain.row(0);
@@ -187,25 +220,22 @@ Matrix Body::initialStress() const {
   // By component, those beyond the plane as far as they are given.
   Matrix given = Matrix::Zero(std::max(material_->components(), 4), points());
   std::vector<char> beyond(points(), 0);
-  const auto read = [&](const auto& stresses, const std::vector<int>& regions) {
-    for (const auto& [component, region, value] : stresses) {
-      const Vector values = atPoints(value, 0);
-      for (int i = 0; i < points(); ++i) {
-        if (region && regions[i / pointsOfTriangle()] != *region) continue;
-        given(component, i) = values[i];
-        if (component == 3) beyond[i] = 1;
-      }
+  const std::vector<int>& regions = space_ ? space_->mesh().regions : mesh_.regions;
+  for (const auto& [component, region, value] : conditions_.initialStresses) {
+    const Vector values = atPoints(value, 0);
+    for (int i = 0; i < points(); ++i) {
+      if (region && regions[i / pointsOfTriangle()] != *region) continue;
+      given(component, i) = values[i];
+      if (component == 3) beyond[i] = 1;
     }
-  };
+  }
   Matrix stress = Matrix::Zero(material_->components(), points());
   if (space_) {
     if (!hasInitialStress()) return stress;
-    read(space_->conditions().initialStresses, space_->mesh().regions);
     for (int i = 0; i < points(); ++i)
       stress.col(i).head<6>() = fromSpaceCartesian(SpaceStress(given.col(i)(std::array{0, 1, 3, 2, 4, 5})));
     return stress;
   }
-  read(conditions_.initialStresses, mesh_.regions);
   const int tensor = material_->tensorComponents();
   for (int i = 0; i < points(); ++i) {
     const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());

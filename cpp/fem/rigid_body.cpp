@@ -23,11 +23,11 @@ void Body::findMotions() {
               Matrix((scaled.transpose() * scaled).partialPivLu().solve(scaled.transpose()));
   for (int c = 0; c < 3; ++c) {
     if (motion.held[c]) continue;
-    freeMotions_.conservativeResize(dofs(), ++freeDofs_);
+    freeMotions_.conservativeResize(dofs(), freeMotions_.cols() + 1);
     freeMotions_.rightCols<1>() = scaled.col(c);
   }
-  equations_.assign(dofs(), -1);
-  freeMotions_.conservativeResize(dofs(), freeDofs_);
+  freeMotions_.conservativeResize(dofs(), freeMotions_.cols());
+  supports_.freeMotionsOnly(static_cast<int>(freeMotions_.cols()));
 }
 
 Eigen::Vector3d Body::heldAt(double t) const {
@@ -49,7 +49,7 @@ Vector Body::rigidLoad(double t) const {
 
 Vector Body::withHeld(const Eigen::Vector3d& held, const Vector& displacement) const {
   Eigen::Vector3d motion = held;
-  const Eigen::Vector3d own = freeDofs_ > 0 ? motionOf(displacement) : held;
+  const Eigen::Vector3d own = freeDofs() > 0 ? motionOf(displacement) : held;
   for (int c = 0; c < 3; ++c)
     if (!conditions_.rigid->held[c]) motion[c] = own[c];
   return motions_ * motion;

@@ -98,7 +98,7 @@ Matrix freeMotions(const Body& body, const RigidComponents& components, const st
         held += opening.transpose() * opening;
       } else if (const NodeSupport* support = supportAt[v]; support != nullptr) {
         for (int k = 0; k < support->count; ++k, ++prescribed) {
-          const Eigen::RowVector3d along = support->directions[k].transpose() * motions;
+          const Eigen::RowVector3d along = support->directions[k].head<2>().transpose() * motions;
           ofSupports += along.transpose() * along;
         }
       }
@@ -239,17 +239,17 @@ std::vector<SpacePart> partsOf(const SpaceElements& space) {
 
 Matrix spaceRigidModes(const Body& body) {
   const SpaceElements& space = *body.space();
-  std::vector<const SpaceSupport*> supportAt(body.nodes(), nullptr);
-  for (const SpaceSupport& support : space.supports()) supportAt[support.node] = &support;
+  std::vector<const NodeSupport*> supportAt(body.nodes(), nullptr);
+  for (const NodeSupport& support : body.supports().nodes()) supportAt[support.node] = &support;
   std::vector<Vector> free;
   for (const SpacePart& part : partsOf(space)) {
     Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
     int prescribed = 0;
     for (const int node : part.nodes)
-      if (const SpaceSupport* support = supportAt[node]; support != nullptr)
+      if (const NodeSupport* support = supportAt[node]; support != nullptr)
         for (int k = 0; k < support->count; ++k, ++prescribed) {
           const Eigen::Matrix<double, 1, 6> along =
-              support->directions.row(k) * part.motionsAt(space.nodes().places[node]);
+              support->directions[k].transpose() * part.motionsAt(space.nodes().places[node]);
           held += along.transpose() * along;
         }
     if (prescribed > 0) held /= prescribed;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/quadrature_rules.h"
 #include "base/two_part_vector.h"
 #include "fem/tetrahedron.h"
@@ -39,15 +38,8 @@ std::vector<SpaceRulePoint> tetrahedronRule() {
   return rule;
 }
 
-SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, SpaceConditions conditions,
-                             int degree, bool averaged)
-    : mesh_(std::move(mesh)), nodes_(spaceNodes(mesh_, degree)), conditions_(std::move(conditions)) {
-  for (const auto* each : {&conditions_.displacements, &conditions_.tractions})
-    for (const SpaceCondition& condition : *each)
-      if (!condition.point && std::find(mesh_.boundaryLabels.begin(), mesh_.boundaryLabels.end(),
-                                        condition.label) == mesh_.boundaryLabels.end())
-        throw InputError("body " + body + ": label = " + std::to_string(condition.label) +
-                         ", expected a boundary label of " + mesh_.name);
+SpaceElements::SpaceElements(TetrahedronMesh mesh, int degree, bool averaged)
+    : mesh_(std::move(mesh)), nodes_(spaceNodes(mesh_, degree)) {
   withSpaceElement(degree, [&](auto element) {
     using Element = decltype(element);
     for (size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
@@ -65,8 +57,6 @@ SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, Spac
     }
   });
   if (averaged) patches_.emplace(volumePatches(mesh_), nodes_, weights_, gradients_);
-  findSupports(body);
-  numberEquations();
 }
 
 SpacePoint SpaceElements::placeOf(int point) const {
@@ -78,87 +68,6 @@ std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree) 
   std::vector<SpacePoint> places;
   for (int point = 0; point < points; ++point) places.push_back(placeOfPoint(mesh, degree, point));
   return places;
-}
-
-Vector SpaceElements::load(double t) const {
-  Vector f = Vector::Zero(3 * static_cast<Eigen::Index>(nodes_.count()));
-  const std::vector<SpaceRulePoint> onTriangle = triangleRule();
-  for (const SpaceCondition& traction : conditions_.tractions)
-    for (size_t i = 0; i < nodes_.faces.size(); ++i) {
-      if (mesh_.boundaryLabels[i] != traction.label) continue;
-      const std::array<int, 6>& face = nodes_.faces[i];
-      const SpacePoint& x0 = nodes_.places[face[0]];
-      const SpacePoint e1 = nodes_.places[face[1]] - x0;
-      const SpacePoint e2 = nodes_.places[face[2]] - x0;
-      const SpacePoint area = e1.cross(e2);
-      const SpacePoint direction = traction.component == spaceNormal
-                                       ? area
-                                       : SpacePoint(area.norm() * SpacePoint::Unit(traction.component));
-      for (const auto& [at, weight] : onTriangle) {
-        const double value = weight * traction.value(x0 + at.x() * e1 + at.y() * e2, t);
-        const std::array<double, 6> N = faceShapes(nodes_.degree, at.x(), at.y());
-        for (int a = 0; a < nodes_.perFace(); ++a)
-          f.segment<3>(3 * static_cast<Eigen::Index>(face[a])) += value * N[a] * direction;
-      }
-    }
-  const std::vector<SpaceRulePoint> inTetrahedron = tetrahedronRule();
-  for (const SpaceCondition& force : conditions_.forces)
-    withSpaceElement(nodes_.degree, [&](auto element) {
-      using Element = decltype(element);
-      for (size_t e = 0; e < mesh_.tetrahedra.size(); ++e) {
-        const int* nodes = nodes_.of(e);
-        const SpacePoint& x0 = nodes_.places[nodes[0]];
-        Eigen::Matrix3d edges;
-        for (int k = 0; k < 3; ++k) edges.col(k) = nodes_.places[nodes[k + 1]] - x0;
-        const double determinant = edges.determinant();
-        for (const auto& [at, weight] : inTetrahedron) {
-          const double value = weight * determinant * force.value(x0 + edges * at, t);
-          const auto N = Element::shapes({1 - at.sum(), at.x(), at.y(), at.z()});
-          for (int a = 0; a < Element::nodes; ++a)
-            f[3 * static_cast<Eigen::Index>(nodes[a]) + force.component] += value * N[a];
-        }
-      }
-    });
-  return f;
-}
-
-Vector SpaceElements::internalForce(const Matrix& stress) const {
-  Vector f = Vector::Zero(3 * static_cast<Eigen::Index>(nodes_.count()));
-  std::vector<double> ofPatches(patches_ ? patches_->count() : 0, 0.0);
-  withSpaceElement(nodes_.degree, [&](auto element) {
-    using Element = decltype(element);
-    constexpr int others = 3 * (Element::nodes - 1);
-    for (size_t i = 0; i < weights_.size(); ++i) {
-      const int* nodes = nodes_.of(i / Element::points);
-      Eigen::Vector<double, 6> s = stress.col(static_cast<Eigen::Index>(i)).template head<6>();
-      if (patches_) {
-        ofPatches[patches_->patchOf()[i]] += weights_[i] * s[5] * *patches_->basis(static_cast<int>(i));
-        s[5] = 0;
-      }
-      const Eigen::Matrix3d T = weights_[i] * tensorOfStress(s);
-      const double* G = &gradients_[others * i];
-      SpacePoint sum = SpacePoint::Zero();
-      for (int a = 1; a < Element::nodes; ++a, G += 3) {
-        const SpacePoint force = T * SpacePoint(G[0], G[1], G[2]);
-        f.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) += force;
-        sum += force;
-      }
-      f.segment<3>(3 * static_cast<Eigen::Index>(nodes[0])) -= sum;
-    }
-  });
-  if (patches_) patches_->addForces(ofPatches, f);
-  return f;
-}
-
-double SpaceElements::largestForce(const Matrix& stress) const {
-  double largest = 0;
-  const size_t others = 3 * (static_cast<size_t>(nodes_.perElement()) - 1);
-  for (size_t i = 0; i < weights_.size(); ++i) {
-    const double most = stress.col(static_cast<Eigen::Index>(i)).head<6>().cwiseAbs().maxCoeff();
-    for (size_t k = others * i; k < others * (i + 1); ++k)
-      largest = std::max(largest, weights_[i] * std::abs(gradients_[k]) * most);
-  }
-  return largest;
 }
 
 // In twice the working precision, of differences to the first node of each tetrahedron.

@@ -5,6 +5,9 @@
 #include <map>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
+#include "base/dense_templates.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -13,7 +16,7 @@ namespace {
 /// Sides that turn by less are smooth.
 const double cornerCosine = std::cos(40 * std::numbers::pi / 180);
 
-/// Directions whose sine is below this are the same: straight sides have one, whatever coordinates round.
+/// Directions whose sine is below this are the same: flat sides have one, whatever coordinates round.
 constexpr double sameDirection = 1e-5;
 
 /// A stretch of the boundary seen from one of its nodes.
@@ -34,20 +37,14 @@ bool isTurned(int component) {
   return component == alongNormal || component == alongTangent;
 }
 
-Point axis(int component) {
-  return Point::Unit(component == alongX ? 0 : 1);
-}
-
 /// The edges with a normal or tangential condition, by their nodes.
 SidesOfNodes sidesOf(const TriangleMesh& mesh, const ElementNodes& nodes,
-                     const std::vector<PrescribedDisplacement>& conditions) {
+                     const std::vector<Condition>& conditions) {
   SidesOfNodes result;
   for (size_t e = 0; e < nodes.boundary.size(); ++e) {
     const auto& [edge, whole] = nodes.boundary[e];
     const int label = mesh.boundaryLabels[whole];
-    const auto here = [&](const PrescribedDisplacement& c) {
-      return c.actsOn(label) && isTurned(c.component);
-    };
+    const auto here = [&](const Condition& c) { return c.actsOn(label) && isTurned(c.component); };
     if (std::none_of(conditions.begin(), conditions.end(), here)) continue;
     const Point along = nodes.places[edge[1]] - nodes.places[edge[0]];
     const double length = along.norm();
@@ -112,103 +109,298 @@ Point oneOf(const std::vector<Upwards>& all, const Point& direction) {
   return mean.dot(direction) > 0 ? mean : Point(-mean);
 }
 
+// ---- space
+
+struct Corner {
+  SpacePoint unit;      ///< outward normal of a triangle
+  SpacePoint weighted;  ///< by which it counts at this node
+};
+
+/// Outward normals at the nodes of the triangles with a normal condition on a label. A vertex weighs them by
+/// the sine of the angle over the lengths of both sides, which is exact on spheres (Max 1999).
+std::map<int, std::vector<Corner>> cornersOf(const TetrahedronMesh& mesh, const SpaceNodes& nodes,
+                                             int label) {
+  std::map<int, std::vector<Corner>> corners;
+  for (size_t i = 0; i < nodes.faces.size(); ++i) {
+    if (mesh.boundaryLabels[i] != label) continue;
+    const std::array<int, 6>& face = nodes.faces[i];
+    for (int k = 0; k < 3; ++k) {
+      const SpacePoint& x = nodes.places[face[k]];
+      const SpacePoint a = nodes.places[face[(k + 1) % 3]] - x;
+      const SpacePoint b = nodes.places[face[(k + 2) % 3]] - x;
+      const SpacePoint normal = a.cross(b);
+      const SpacePoint unit = normal.normalized();
+      corners[face[k]].push_back({unit, normal / (a.squaredNorm() * b.squaredNorm())});
+      if (nodes.degree > 1) corners[face[3 + k]].push_back({unit, unit});
+    }
+  }
+  return corners;
+}
+
+/// The normals at a node, one for each smooth part of the boundary that meets there.
+std::vector<SpacePoint> normalsAt(const std::vector<Corner>& corners) {
+  std::vector<SpacePoint> normals;
+  std::vector<char> taken(corners.size(), 0);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (taken[i] != 0) continue;
+    SpacePoint sum = SpacePoint::Zero();
+    for (size_t j = i; j < corners.size(); ++j) {
+      if (taken[j] != 0 || corners[j].unit.dot(corners[i].unit) < cornerCosine) continue;
+      taken[j] = 1;
+      sum += corners[j].weighted;
+    }
+    SpacePoint normal = sum.normalized();
+    for (int c = 0; c < 3; ++c)
+      if (const SpacePoint axis = SpacePoint::Unit(c); normal.cross(axis).norm() < sameDirection)
+        normal = normal[c] > 0 ? axis : SpacePoint(-axis);
+    normals.push_back(normal);
+  }
+  return normals;
+}
+
+/// Whether a component of a motion is prescribed, of a support that is not turned.
+bool holds(const NodeSupport& support, Eigen::Index component) {
+  const auto first = support.directions.begin();
+  return std::any_of(first, first + support.count,
+                     [&](const SpacePoint& direction) { return direction[component] != 0; });
+}
+
 }  // namespace
 
-void Supports::hold(NodeSupport& support, const Point& direction, int condition) {
-  if (const int same = sameMotion(support, direction); same >= 0) {
-    if (support.conditions[same] != condition) further_.push_back({support.node, condition, direction});
-    return;
+SpacePoint NodeSupport::motion(const std::array<double, 3>& values) const {
+  SpacePoint sum = SpacePoint::Zero();
+  for (int i = 0; i < count; ++i) {
+    const SpacePoint row = frame.row(i);
+    sum += (values[i] - directions[i].dot(sum)) / directions[i].dot(row) * row;
   }
-  if (support.count == 2) {
-    further_.push_back({support.node, condition, direction});
+  return sum;
+}
+
+SpacePoint NodeSupport::held(const SpacePoint& vector) const {
+  SpacePoint sum = SpacePoint::Zero();
+  for (int i = 0; i < count; ++i) sum += frame.row(i).dot(vector) * frame.row(i).transpose();
+  return sum;
+}
+
+int NodeSupport::same(const SpacePoint& direction) const {
+  for (int i = 0; i < count; ++i)
+    if (directions[i].cross(direction).norm() < sameDirection) return i;
+  return -1;
+}
+
+double NodeSupport::implied(const std::array<double, 3>& values, const SpacePoint& direction) const {
+  const int found = same(direction);
+  if (found >= 0) return directions[found].dot(direction) > 0 ? values[found] : -values[found];
+  return direction.dot(motion(values));
+}
+
+/// Prescribes the motion along a direction unless the others of the node imply it.
+void Supports::hold(NodeSupport& support, const SpacePoint& direction, int condition) {
+  SpacePoint beyond = direction;
+  for (int i = 0; i < support.count; ++i) {
+    const SpacePoint row = support.frame.row(i);
+    beyond -= row.dot(beyond) * row;
+  }
+  if (support.count == dimension_ || beyond.norm() < sameDirection) {
+    const int same = support.same(direction);
+    if (same < 0 || support.conditions[same] != condition)
+      further_.push_back({support.node, condition, direction});
     return;
   }
   support.directions[support.count] = direction;
-  support.conditions[support.count] = condition;
-  ++support.count;
+  support.frame.row(support.count) = beyond.normalized();
+  support.conditions[support.count++] = condition;
 }
 
-Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
-                   const std::vector<PrescribedDisplacement>& conditions) {
-  const SidesOfNodes sides = sidesOf(mesh, nodes, conditions);
+template <class Nodes, class NodesOf, class DirectionsOf>
+void Supports::build(const Nodes& nodes, const std::vector<Condition>& conditions, const NodesOf& nodesOf,
+                     const DirectionsOf& directionsOf) {
   std::map<int, NodeSupport> held;
-  const auto directionAt = [&](size_t c, size_t e, int node) -> Point {
-    const std::vector<Side>& here = sides.at(node);
-    const auto side =
-        std::find_if(here.begin(), here.end(), [&](const Side& s) { return s.edge == static_cast<int>(e); });
-    const Point n = normalAt(sides, node, *side);
-    return conditions[c].component == alongNormal ? n : Point(-n.y(), n.x());
+  const auto at = [&](int node) -> NodeSupport& {
+    held[node].node = node;
+    if constexpr (std::is_same_v<Nodes, ElementNodes>)
+      held[node].place = asSpacePoint(nodes.places[node]);
+    else
+      held[node].place = nodes.places[node];
+    return held[node];
   };
-  std::vector<Upwards> directions;
-  for (size_t c = 0; c < conditions.size(); ++c)
-    for (size_t e = 0; isTurned(conditions[c].component) && e < nodes.boundary.size(); ++e)
-      if (conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge]))
-        for (const int node : nodes.boundary[e].nodes) directions.emplace_back(directionAt(c, e, node));
-  std::sort(directions.begin(), directions.end(),
-            [](const Upwards& a, const Upwards& b) { return a.angle < b.angle; });
   // Axes first: a normal that is one of them up to rounding is left out.
   for (const bool turned : {false, true})
     for (size_t c = 0; c < conditions.size(); ++c) {
       const int component = conditions[c].component;
       if (isTurned(component) != turned) continue;
-      if (conditions[c].point) {
-        const int vertex = vertexAt(mesh, *conditions[c].point);
-        if (vertex < 0) continue;
-        held[vertex].node = vertex;
-        hold(held[vertex], axis(component), static_cast<int>(c));
-        continue;
-      }
-      if (conditions[c].onAxis) {
-        for (int node = 0; node < nodes.count(); ++node) {
-          if (nodes.places[node].x() != 0) continue;
-          held[node].node = node;
-          hold(held[node], axis(component), static_cast<int>(c));
-        }
-        continue;
-      }
-      for (size_t e = 0; e < nodes.boundary.size(); ++e) {
-        if (!conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge])) continue;
-        for (const int node : nodes.boundary[e].nodes) {
-          NodeSupport& support = held[node];
-          support.node = node;
-          if (!turned) {
-            hold(support, axis(component), static_cast<int>(c));
-            continue;
-          }
-          hold(support, oneOf(directions, directionAt(c, e, node)), static_cast<int>(c));
-        }
-      }
+      if (turned)
+        for (const auto& [node, direction] : directionsOf(c)) hold(at(node), direction, static_cast<int>(c));
+      else
+        for (const int node : nodesOf(conditions[c]))
+          hold(at(node), SpacePoint::Unit(component), static_cast<int>(c));
     }
   std::map<int, int> numbers;
-  for (const auto& [node, support] : held) {
-    numbers[node] = static_cast<int>(nodes_.size());
+  equations_.assign(static_cast<size_t>(dimension_) * nodes.count(), 0);
+  for (auto& [node, support] : held) {
+    const auto number = static_cast<int>(nodes_.size());
+    numbers[node] = number;
+    for (int i = 0; i < support.count && support.count < dimension_; ++i)
+      support.turned = support.turned || support.directions[i].cwiseAbs().maxCoeff() != 1;
+    for (int i = 0; i < support.count; ++i) {
+      Eigen::Index axis = i;
+      if (!support.turned && support.count < dimension_) support.directions[i].cwiseAbs().maxCoeff(&axis);
+      equations_[static_cast<size_t>(dimension_) * node + axis] = -1;
+    }
+    auto& frame = support.frame;
+    if (support.count == 1)
+      frame.row(1) = dimension_ == 2 ? SpacePoint(-frame(0, 1), frame(0, 0), 0)
+                                     : SpacePoint(SpacePoint(frame.row(0)).unitOrthogonal());
+    if (support.count < 3) frame.row(2) = SpacePoint(frame.row(0)).cross(SpacePoint(frame.row(1)));
+    if (support.turned && turnedOf_.empty()) turnedOf_.assign(nodes.count(), -1);
+    if (support.turned) turnedOf_[node] = number;
     nodes_.push_back(support);
   }
   for (FurtherMotion& motion : further_) motion.support = numbers.at(motion.support);
+  for (int& equation : equations_)
+    if (equation >= 0) equation = freeDofs_++;
 }
 
-Point prescribed(const NodeSupport& support, const std::array<double, 2>& values, const Point& u) {
-  const Point& d = support.directions[0];
-  if (support.count == 1) {
-    if (d.y() == 0) return {values[0] / d.x(), u.y()};
-    if (d.x() == 0) return {u.x(), values[0] / d.y()};
-    return u + (values[0] - d.dot(u)) * d;
+Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
+                   const std::vector<Condition>& conditions) {
+  const SidesOfNodes sides = sidesOf(mesh, nodes, conditions);
+  const auto stretches = [&](const Condition& condition, const auto& visit) {
+    for (size_t e = 0; e < nodes.boundary.size(); ++e)
+      if (condition.actsOn(mesh.boundaryLabels[nodes.boundary[e].edge]))
+        for (const int node : nodes.boundary[e].nodes) visit(e, node);
+  };
+  const auto directionAt = [&](const Condition& condition, size_t e, int node) -> Point {
+    const std::vector<Side>& here = sides.at(node);
+    const auto side =
+        std::find_if(here.begin(), here.end(), [&](const Side& s) { return s.edge == static_cast<int>(e); });
+    const Point n = normalAt(sides, node, *side);
+    return condition.component == alongNormal ? n : turned(n);
+  };
+  std::vector<Upwards> directions;
+  for (const Condition& condition : conditions)
+    if (isTurned(condition.component))
+      stretches(condition,
+                [&](size_t e, int node) { directions.emplace_back(directionAt(condition, e, node)); });
+  std::sort(directions.begin(), directions.end(),
+            [](const Upwards& a, const Upwards& b) { return a.angle < b.angle; });
+  build(
+      nodes, conditions,
+      [&](const Condition& condition) {
+        std::vector<int> held;
+        if (condition.point)
+          if (const int vertex = vertexAt(mesh, Point(condition.point->head<2>())); vertex >= 0)
+            held.push_back(vertex);
+        for (int node = 0; condition.onAxis && node < nodes.count(); ++node)
+          if (nodes.places[node].x() == 0) held.push_back(node);
+        stretches(condition, [&](size_t, int node) { held.push_back(node); });
+        return held;
+      },
+      [&](size_t c) {
+        std::vector<std::pair<int, SpacePoint>> held;
+        stretches(conditions[c], [&](size_t e, int node) {
+          held.emplace_back(node, asSpacePoint(oneOf(directions, directionAt(conditions[c], e, node))));
+        });
+        return held;
+      });
+}
+
+Supports::Supports(const TetrahedronMesh& mesh, const SpaceNodes& nodes,
+                   const std::vector<Condition>& conditions)
+    : dimension_(3) {
+  build(
+      nodes, conditions,
+      [&](const Condition& condition) {
+        std::vector<int> held;
+        if (condition.point)
+          if (const int vertex = vertexAt(mesh, *condition.point); vertex >= 0) held.push_back(vertex);
+        for (size_t i = 0; i < nodes.faces.size(); ++i)
+          if (condition.actsOn(mesh.boundaryLabels[i]))
+            held.insert(held.end(), nodes.faces[i].begin(), nodes.faces[i].begin() + nodes.perFace());
+        return held;
+      },
+      [&](size_t c) {
+        std::vector<std::pair<int, SpacePoint>> held;
+        for (const auto& [node, corners] : cornersOf(mesh, nodes, conditions[c].label))
+          for (const SpacePoint& normal : normalsAt(corners)) held.emplace_back(node, normal);
+        return held;
+      });
+}
+
+void Supports::freeMotionsOnly(int count) {
+  equations_.assign(equations_.size(), -1);
+  freeDofs_ = count;
+}
+
+SpacePoint Supports::vectorAt(const Vector& nodal, int node) const {
+  SpacePoint vector = SpacePoint::Zero();
+  for (int c = 0; c < dimension_; ++c) vector[c] = nodal[static_cast<Eigen::Index>(dimension_) * node + c];
+  return vector;
+}
+
+Vector Supports::gather(const Vector& nodal) const {
+  Vector x(freeDofs_);
+  for (size_t dof = 0; dof < equations_.size(); ++dof)
+    if (equations_[dof] >= 0) x[equations_[dof]] = nodal[static_cast<Eigen::Index>(dof)];
+  for (const NodeSupport& support : nodes_) {
+    if (!support.turned) continue;
+    const SpacePoint turned = support.frame * vectorAt(nodal, support.node);
+    for (int c = support.count; c < dimension_; ++c)
+      x[equations_[static_cast<size_t>(dimension_) * support.node + c]] = turned[c];
   }
-  const Point& e = support.directions[1];
-  return Point(values[0] * e.y() - values[1] * d.y(), values[1] * d.x() - values[0] * e.x()) / cross(d, e);
+  return x;
 }
 
-int sameMotion(const NodeSupport& support, const Point& direction) {
-  for (int i = 0; i < support.count; ++i)
-    if (parallel(support.directions[i], direction)) return i;
-  return -1;
+Vector Supports::spread(const Vector& x) const {
+  Vector nodal = Vector::Zero(static_cast<Eigen::Index>(equations_.size()));
+  for (size_t dof = 0; dof < equations_.size(); ++dof)
+    if (equations_[dof] >= 0) nodal[static_cast<Eigen::Index>(dof)] = x[equations_[dof]];
+  for (const NodeSupport& support : nodes_) {
+    if (!support.turned) continue;
+    const SpacePoint vector = support.frame.transpose() * vectorAt(nodal, support.node);
+    for (int c = 0; c < dimension_; ++c)
+      nodal[static_cast<Eigen::Index>(dimension_) * support.node + c] = vector[c];
+  }
+  return nodal;
 }
 
-double impliedMotion(const NodeSupport& support, const std::array<double, 2>& values,
-                     const Point& direction) {
-  const int same = sameMotion(support, direction);
-  if (same >= 0) return support.directions[same].dot(direction) > 0 ? values[same] : -values[same];
-  return direction.dot(prescribed(support, values, Point::Zero()));
+SpacePoint Supports::motionOf(const NodeSupport& support, const std::vector<Condition>& conditions,
+                              std::optional<double> t0, double t1) const {
+  std::array<double, 3> values{};
+  for (int i = 0; i < support.count; ++i) {
+    const Datum& value = conditions[support.conditions[i]].value;
+    values[i] = value(support.place, t1) - (t0 ? value(support.place, *t0) : 0);
+  }
+  return support.motion(values);
+}
+
+void Supports::prescribe(const std::vector<Condition>& conditions, double t, Vector& u) const {
+  for (const NodeSupport& support : nodes_) {
+    const SpacePoint held = motionOf(support, conditions, std::nullopt, t);
+    const SpacePoint change = held - support.held(vectorAt(u, support.node));
+    for (Eigen::Index c = 0, dof = static_cast<Eigen::Index>(dimension_) * support.node; c < dimension_;
+         ++c, ++dof)
+      if (support.turned)
+        u[dof] += change[c];
+      else if (holds(support, c))
+        u[dof] = held[c];
+  }
+}
+
+void Supports::prescribeIncrement(const std::vector<Condition>& conditions, double t0, double t1,
+                                  TwoPartVector& increment) const {
+  for (const NodeSupport& support : nodes_) {
+    const SpacePoint held = motionOf(support, conditions, t0, t1);
+    const SpacePoint change = held - support.held(vectorAt(increment.high, support.node));
+    const SpacePoint rest = support.held(vectorAt(increment.low, support.node));
+    for (Eigen::Index c = 0, dof = static_cast<Eigen::Index>(dimension_) * support.node; c < dimension_;
+         ++c, ++dof)
+      if (support.turned) {
+        increment.high[dof] += change[c];
+        increment.low[dof] -= rest[c];
+      } else if (holds(support, c)) {
+        increment.set(dof, held[c]);
+      }
+  }
 }
 
 }  // namespace mortier

@@ -123,9 +123,4 @@ BoundaryLine boundaryLine(const TriangleMesh& mesh, const ElementNodes& nodes, i
   return line;
 }
 
-int vertexAt(const TriangleMesh& mesh, const Point& place) {
-  const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), place);
-  return found == mesh.vertices.end() ? -1 : static_cast<int>(found - mesh.vertices.begin());
-}
-
 }  // namespace mortier

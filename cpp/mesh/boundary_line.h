@@ -2,6 +2,7 @@
 // discretised.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -38,6 +39,10 @@ std::vector<std::array<int, 2>> edgesOn(const TriangleMesh& mesh, int label);
 std::vector<int> verticesOn(const TriangleMesh& mesh, int label);
 
 /// The first vertex that lies exactly at a place [m]; -1 for none.
-int vertexAt(const TriangleMesh& mesh, const Point& place);
+template <class Mesh, class Place>
+int vertexAt(const Mesh& mesh, const Place& place) {
+  const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), place);
+  return found == mesh.vertices.end() ? -1 : static_cast<int>(found - mesh.vertices.begin());
+}
 
 }  // namespace mortier

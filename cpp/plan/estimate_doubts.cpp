@@ -103,7 +103,7 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
     const Body& body = model.bodies[b];
     const double largest = body.largestForce(state.bodies[b].stress);
     std::set<int> seen;
-    for (const PrescribedDisplacement& held : body.conditions().displacements) {
+    for (const Condition& held : body.conditions().displacements) {
       if (!held.point || !seen.insert(firstSupport(body, held.label, held.point)).second) continue;
       Quantity along{"", Quantity::Kind::reaction, static_cast<int>(b)};
       along.point = held.point;
@@ -112,8 +112,8 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
       const std::vector<double> force = evaluate({along, across}, model, state);
       const double size = std::hypot(force[0], force[1]);
       if (size > noticeable * largest)
-        doubts.push_back("body " + body.name() + " is held at " + shortest(*held.point) + " by a force of " +
-                         digits(size) + (body.axisymmetric() ? " N" : " N/m") +
+        doubts.push_back("body " + body.name() + " is held at " + shortest(Point(held.point->head<2>())) +
+                         " by a force of " + digits(size) + (body.axisymmetric() ? " N" : " N/m") +
                          ", whose energy at a point is infinite");
     }
   }

@@ -22,7 +22,7 @@ MeshedScene meshedScene(const SceneDescription& scene, const Model& model) {
 }
 
 double SampledDatum::at(const SpacePoint& point, double t) const {
-  return value->at(point, t);
+  return value->value(point, t);
 }
 
 double SampledDatum::largest(double t) const {

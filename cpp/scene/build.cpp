@@ -35,7 +35,7 @@ Model buildModel(ResolvedScene& scene) {
     stopIfInterrupted();
     const BodyDescription& body = description.bodies[b];
     model.bodies.push_back(description.inSpace()
-                               ? buildSpaceBody(body, std::move(scene.spaceMeshes[b]), description, times)
+                               ? buildBody(body, std::move(scene.spaceMeshes[b]), description, times)
                                : buildBody(body, std::move(scene.meshes[b]), description, times));
   }
   scene.meshes.clear();
@@ -93,16 +93,15 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };
-    quantity.point = description.point;
-    quantity.pointInSpace = description.pointInSpace;
+    quantity.point = description.pointInSpace;
+    if (description.point) quantity.point = asSpacePoint(*description.point);
     const std::string point = description.point          ? shortest(*description.point)
                               : description.pointInSpace ? shortest(*description.pointInSpace)
                                                          : "";
     const bool atPoint = quantity.kind == Quantity::Kind::reaction && !point.empty();
     const std::string label =
         (atPoint ? "point " + point : "label " + std::to_string(quantity.label)) + " of body " + body.name();
-    if (quantity.kind == Quantity::Kind::reaction &&
-        firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace) < 0)
+    if (quantity.kind == Quantity::Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
     using Kind = Quantity::Kind;
     const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
@@ -182,7 +181,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
       for (const int node : body.boundaryNodes(pair.nonmortar.label))
         places.push_back(body.placeOfNode(node));
       requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
-      options.gapInSpace = finiteInSpace(*contact.gap);
+      options.gapInSpace = finiteValue(*contact.gap, true);
       options.gapMoves = contact.gap->inTime;
     }
     options.stabilised = contact.stabilised;

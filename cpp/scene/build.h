@@ -59,10 +59,9 @@ std::vector<double> anglesOf(const MaterialDescription& description, const std::
 std::shared_ptr<const Material> materialOfRegions(
     const BodyDescription& body, const std::vector<int>& regions, size_t points,
     const std::function<std::shared_ptr<const Material>(const MaterialDescription&)>& make);
-Body buildSpaceBody(const BodyDescription& body, TetrahedronMesh mesh, const SceneDescription& scene,
-                    const std::vector<double>& times);
-/// Data are tried at `times` [s].
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
+/// In the plane or in space. Data are tried at `times` [s].
+template <class Mesh>
+Body buildBody(const BodyDescription& body, Mesh mesh, const SceneDescription& scene,
                const std::vector<double>& times);
 /// What a temperature of 1 strains at `places`, the stress points of the mesh, times the nodal values where
 /// the body has a file of them: components x places. \throws InputError where the temperature is not finite.

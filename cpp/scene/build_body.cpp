@@ -13,63 +13,36 @@ namespace mortier {
 
 namespace {
 
-/// Where a condition acts: its point, or the vertices of its label, of a traction the middles of edges too.
-std::vector<Point> placesOf(const ConditionDescription& condition, const TriangleMesh& mesh) {
-  if (condition.point) return {*condition.point};
-  std::vector<Point> points;
-  if (condition.kind == ConditionDescription::Kind::traction)
-    for (const auto& [a, b] : edgesOn(mesh, condition.label))
-      points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-  for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
-  return points;
+/// Its point in the plane or in space.
+template <class Place>
+const std::optional<Place>& pointOf(const ConditionDescription& condition) {
+  if constexpr (std::is_same_v<Place, Point>)
+    return condition.point;
+  else
+    return condition.pointInSpace;
 }
 
-/// Where it acts, over the run: of a value that passes zero only this has digits.
-double largestOf(const ConditionDescription& condition, const TriangleMesh& mesh,
-                 const std::vector<double>& times) {
-  double largest = 0;
-  for (const Point& p : placesOf(condition, mesh))
-    for (const double t : times) largest = std::max(largest, std::abs(condition.value.value(p[0], p[1], t)));
-  return largest;
-}
-
-/// Where labels or points meet, all may prescribe a motion of a node, but not differently. `displacements`
-/// are the conditions of `supports`, in their order. \throws InputError with node, time [s] and both values
-/// [m].
-void requireOneDisplacement(const Supports& supports,
-                            const std::vector<const ConditionDescription*>& displacements,
-                            const TriangleMesh& mesh, const std::vector<double>& times) {
-  constexpr double rounding = 1e-9;  // normals of meshed circles are rounded
-  std::vector<std::optional<double>> scales(displacements.size());
-  const auto scaleOf = [&](int condition) {
-    std::optional<double>& scale = scales[condition];
-    if (!scale) scale = largestOf(*displacements[condition], mesh, times);
-    return *scale;
-  };
-  for (const FurtherMotion& motion : supports.further()) {
-    const NodeSupport& support = supports.nodes()[motion.support];
-    const Point& p = mesh.vertices[support.node];
-    for (const double t : times) {
-      const auto valueOf = [&](int condition) {
-        return displacements[condition]->value.value(p[0], p[1], t);
-      };
-      std::array<double, 2> values{0, 0};
-      for (int i = 0; i < support.count; ++i) values[i] = valueOf(support.conditions[i]);
-      const double implied = impliedMotion(support, values, motion.direction) + 0.0;  // no -0
-      const double off = std::abs(valueOf(motion.condition) - implied);
-      if (off == 0) continue;
-      double scale = scaleOf(motion.condition);
-      for (int i = 0; i < support.count; ++i) scale = std::max(scale, scaleOf(support.conditions[i]));
-      if (off <= rounding * scale) continue;
-      const auto placeOf = [&](int i) { return nameOfPlace(*displacements[support.conditions[i]]); };
-      const int same = sameMotion(support, motion.direction);
-      throw InputError(
-          displacements[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) +
-          "), t = " + shortest(t) + ": expected the " + shortest(implied) + " that " +
-          (same >= 0 ? placeOf(same) + " prescribes" : placeOf(0) + " and " + placeOf(1) + " prescribe") +
-          " there");
+/// Where a condition acts: its point, or the vertices of its label, of a traction the middles of sides too.
+template <class Mesh>
+auto placesOf(const ConditionDescription& condition, const Mesh& mesh) {
+  using Place = typename decltype(mesh.vertices)::value_type;
+  if (const auto& point = pointOf<Place>(condition)) return std::vector<Place>{*point};
+  std::vector<Place> places;
+  const auto addMiddles = [&](const auto& sides) {
+    for (const auto& side : sides) {
+      Place sum = Place::Zero();
+      for (const int v : side) sum += mesh.vertices[v];
+      places.push_back(sum / static_cast<double>(side.size()));
     }
+  };
+  if (condition.kind == ConditionDescription::Kind::traction) {
+    if constexpr (std::is_same_v<Place, Point>)
+      addMiddles(edgesOn(mesh, condition.label));
+    else
+      addMiddles(trianglesOn(mesh, condition.label));
   }
+  for (const int v : verticesOn(mesh, condition.label)) places.push_back(mesh.vertices[v]);
+  return places;
 }
 
 std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
@@ -130,29 +103,6 @@ std::shared_ptr<const Material> materialOfRegions(
 
 namespace {
 
-void addInitialStress(const StressDescription& stress, std::optional<int> region, const TriangleMesh& mesh,
-                      Conditions& conditions) {
-  for (size_t c = 0; c < stress.size(); ++c) {
-    if (!stress[c]) continue;
-    requireFinite(*stress[c], centresOf(mesh), {0});
-    conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
-  }
-}
-
-/// Data that meet at a node agree, with the axis too.
-void requireOneDisplacement(const TriangleMesh& mesh, std::vector<PrescribedDisplacement> prescribed,
-                            std::vector<const ConditionDescription*> described, bool axisymmetric,
-                            const std::vector<double>& times) {
-  ConditionDescription axis;
-  axis.onAxis = true;
-  if (axisymmetric) {
-    axis.value.value = heldOnAxis().value;
-    prescribed.insert(prescribed.begin(), heldOnAxis());
-    described.insert(described.begin(), &axis);
-  }
-  requireOneDisplacement(Supports(mesh, prescribed), described, mesh, times);
-}
-
 Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
   const bool axisymmetric = scene.plane == Plane::axisymmetric;
@@ -169,49 +119,117 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
           scene.degree, axisymmetric};
 }
 
+/// Where labels or points meet, all may prescribe a motion of a node, but not differently. `described` are
+/// the conditions of the body's supports, in their order; the axis is none of them. \throws InputError with
+/// node, time [s] and both values [m].
+void requireOneDisplacement(const Body& body, std::vector<const ConditionDescription*> described,
+                            const std::vector<double>& times) {
+  constexpr double rounding = 1e-9;  // normals of meshed circles are rounded
+  ConditionDescription axis;
+  axis.onAxis = true;
+  if (body.axisymmetric()) described.insert(described.begin(), &axis);
+  const std::vector<Condition>& conditions = body.conditions().displacements;
+  const Supports& supports = body.supports();
+  // The largest value of each over the run: of one that passes zero only this has digits.
+  std::vector<std::optional<double>> scales(conditions.size());
+  const auto scaleOf = [&](int condition) {
+    std::optional<double>& scale = scales[condition];
+    if (scale) return *scale;
+    scale = 0;
+    const auto add = [&](const SpacePoint& place) {
+      for (const double t : times) scale = std::max(*scale, std::abs(conditions[condition].value(place, t)));
+    };
+    for (const NodeSupport& support : supports.nodes())
+      if (std::ranges::find(support.conditions, condition) != support.conditions.end()) add(support.place);
+    for (const FurtherMotion& motion : supports.further())
+      if (motion.condition == condition) add(supports.nodes()[motion.support].place);
+    return *scale;
+  };
+  for (const FurtherMotion& motion : supports.further()) {
+    const NodeSupport& support = supports.nodes()[motion.support];
+    const SpacePoint& p = support.place;
+    for (const double t : times) {
+      std::array<double, 3> values{};
+      for (int i = 0; i < support.count; ++i) values[i] = conditions[support.conditions[i]].value(p, t);
+      const double implied = support.implied(values, motion.direction) + 0.0;  // no -0
+      const double off = std::abs(conditions[motion.condition].value(p, t) - implied);
+      if (off == 0) continue;
+      double scale = scaleOf(motion.condition);
+      for (int i = 0; i < support.count; ++i) scale = std::max(scale, scaleOf(support.conditions[i]));
+      if (off <= rounding * scale) continue;
+      std::string who;
+      const int same = support.same(motion.direction);
+      for (int i = same < 0 ? 0 : same; i < (same < 0 ? support.count : same + 1); ++i)
+        who += (who.empty() ? "" : " and ") + nameOfPlace(*described[support.conditions[i]]);
+      throw InputError(described[motion.condition]->value.where + " at " +
+                       (body.dimension() == 2 ? shortest(Point(p.head<2>())) : shortest(p)) +
+                       ", t = " + shortest(t) + ": expected the " + shortest(implied) + " that " + who +
+                       (same < 0 && support.count > 1 ? " prescribe" : " prescribes") + " there");
+    }
+  }
+}
+
 }  // namespace
 
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
+template <class Mesh>
+Body buildBody(const BodyDescription& body, Mesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
-  if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
-  const bool axisymmetric = scene.plane == Plane::axisymmetric;
-  if (axisymmetric) mesh = meshAboutAxis(std::move(mesh));
+  constexpr bool inSpace = std::is_same_v<Mesh, TetrahedronMesh>;
+  using Place = typename decltype(mesh.vertices)::value_type;
+  const Plane plane = inSpace ? Plane::none : scene.plane;
+  if constexpr (!inSpace) {
+    if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
+    if (plane == Plane::axisymmetric) mesh = meshAboutAxis(std::move(mesh));
+  }
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
     requireFinite(c.value, placesOf(c, mesh), times);
-    if (c.kind == ConditionDescription::Kind::displacement) {
-      conditions.displacements.push_back({c.label, c.component, finiteValue(c.value), c.point});
-      displacements.push_back(&c);
-    } else {
-      conditions.tractions.push_back({c.label, c.component, finiteValue(c.value)});
-    }
+    const bool held = c.kind == ConditionDescription::Kind::displacement;
+    Condition condition{c.label, c.component, finiteValue(c.value, inSpace), c.pointInSpace};
+    if (c.point) condition.point = asSpacePoint(*c.point);
+    (held ? conditions.displacements : conditions.tractions).push_back(std::move(condition));
+    if (held) displacements.push_back(&c);
   }
-  for (const int c : {0, 1}) {
+  for (int c = 0; c < (inSpace ? 3 : 2); ++c) {
     if (!body.force[c]) continue;
     requireFinite(*body.force[c], centresOf(mesh), times);
-    conditions.forces.push_back({c, finiteValue(*body.force[c])});
+    conditions.forces.push_back({c, finiteValue(*body.force[c], inSpace)});
   }
-  addInitialStress(body.initialStress, std::nullopt, mesh, conditions);
-  for (const RegionDescription& region : body.regions)
-    addInitialStress(region.initialStress, region.label, mesh, conditions);
-  requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
-  const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
+  const auto addStress = [&](const StressDescription& stress, std::optional<int> region) {
+    for (size_t c = 0; c < stress.size(); ++c) {
+      if (!stress[c]) continue;
+      requireFinite(*stress[c], centresOf(mesh), {0});
+      conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c], inSpace)});
+    }
+  };
+  addStress(body.initialStress, std::nullopt);
+  for (const RegionDescription& region : body.regions) addStress(region.initialStress, region.label);
+  const std::vector<Place> places = placesOfPoints(mesh, scene.degree);
   const std::shared_ptr<const Material> material =
       materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {
-        return buildMaterial(description, scene.plane, anglesOf(description, places));
+        return buildMaterial(description, plane, anglesOf(description, places));
       });
   if (body.temperature) {
-    conditions.temperature = finiteValue(body.temperature->value);
-    conditions.expansion = expansionOf(body, mesh, scene.plane, places, times);
+    conditions.temperature = finiteValue(body.temperature->value, inSpace);
+    conditions.expansion = expansionOf(body, mesh, plane, places, times);
   }
-  return {body.name,
-          std::move(mesh),
-          material,
-          std::move(conditions),
-          scene.degree,
-          axisymmetric,
-          body.volume == Volume::averaged};
+  const bool averaged = body.volume == Volume::averaged;
+  const auto built = [&] {
+    if constexpr (inSpace)
+      return Body(body.name, std::move(mesh), material, std::move(conditions), scene.degree, averaged);
+    else
+      return Body(body.name, std::move(mesh), material, std::move(conditions), scene.degree,
+                  plane == Plane::axisymmetric, averaged);
+  };
+  Body result = built();
+  requireOneDisplacement(result, std::move(displacements), times);
+  return result;
 }
+
+template Body buildBody(const BodyDescription&, TriangleMesh, const SceneDescription&,
+                        const std::vector<double>&);
+template Body buildBody(const BodyDescription&, TetrahedronMesh, const SceneDescription&,
+                        const std::vector<double>&);
 
 }  // namespace mortier

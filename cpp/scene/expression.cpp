@@ -21,7 +21,6 @@ class Value {
   Value(std::shared_ptr<const Formulas> formula, bool inSpace)
       : formula_(std::move(formula)), variables_(inSpace ? 4 : 3) {}
 
-  double operator()(double x, double y, double t) const { return (*this)(SpacePoint(x, y, 0), t); }
   double operator()(const SpacePoint& x, double t) const {
     values_.resize(variables_ * pointsAtOnce);
     for (int k = 0; k + 1 < variables_; ++k) values_[k * pointsAtOnce] = x[k];
@@ -37,12 +36,12 @@ class Value {
   mutable std::vector<double> values_, numbers_;
 };
 
-/// \throws DatumError  \param z  none in the plane
-double finite(double value, const std::string& where, double x, double y, double t,
-              std::optional<double> z = {}) {
+/// \throws DatumError  \param inSpace  whether points have a z
+double finite(double value, const std::string& where, const SpacePoint& x, double t, bool inSpace) {
   if (std::isfinite(value)) return value;
-  throw DatumError(where + ", expected a finite number, is " + shortest(value) + " at x = " + shortest(x) +
-                   ", y = " + shortest(y) + (z ? ", z = " + shortest(*z) : "") + ", t = " + shortest(t));
+  throw DatumError(where + ", expected a finite number, is " + shortest(value) +
+                   " at x = " + shortest(x.x()) + ", y = " + shortest(x.y()) +
+                   (inSpace ? ", z = " + shortest(x.z()) : "") + ", t = " + shortest(t));
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
 Expression negated(Expression expression) {
   expression.text = "-(" + expression.text + ")";
   const Datum& value = expression.value;
-  Datum opposite = [value = Function(value)](double x, double y, double t) { return -value(x, y, t); };
+  Datum opposite = [value = value.value](const SpacePoint& x, double t) { return -value(x, t); };
   opposite.degree = value.degree;
   opposite.inTime = value.inTime;
   opposite.degreeInTime = value.degreeInTime;
@@ -91,8 +90,6 @@ Expression negated(Expression expression) {
       return [f = along()](const Taylor& x, const Taylor& y, const Taylor& t) { return -f(x, y, t); };
     };
   expression.value = std::move(opposite);
-  if (expression.inSpace)
-    expression.inSpace = [value = expression.inSpace](const SpacePoint& x, double t) { return -value(x, t); };
   return expression;
 }
 
@@ -106,62 +103,34 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
   bool constant = true;
   for (int k = 0; k <= last; ++k) constant = constant && !formula->dependsOn(k);
   if (constant) {
-    Expression result = constantExpression(finite(value(0, 0, 0), where, 0, 0, 0), where);
+    Expression result = constantExpression(finite(value({0, 0, 0}, 0), where, {0, 0, 0}, 0, false), where);
     result.text = text;
     return result;
   }
-  SpaceDatum ofSpace;
-  if (inSpace && formula->dependsOn(2))
-    ofSpace = [value](const SpacePoint& x, double t) { return value(x, t); };
-  Datum datum = Function([value](double x, double y, double t) { return value(x, y, t); });
+  Datum datum = value;
   datum.inTime = formula->dependsOn(last);
   describe(*formula, inSpace, datum);
   Expression result{text, std::move(where), false, std::move(datum), {}};
   result.inTime = result.value.inTime;
-  result.inSpace = std::move(ofSpace);
   result.formula = formula;
   return result;
 }
 
-double Expression::at(const SpacePoint& x, double t) const {
-  return inSpace ? inSpace(x, t) : value(x.x(), x.y(), t);
-}
-
-Datum finiteValue(const Expression& expression) {
+Datum finiteValue(const Expression& expression, bool inSpace) {
   Datum datum = expression.value;
-  static_cast<Function&>(datum) = [value = Function(expression.value), where = expression.where](
-                                      double x, double y, double t) {
-    return finite(value(x, y, t), where, x, y, t);
-  };
+  datum.value = [value = expression.value.value, where = expression.where, inSpace](
+                    const SpacePoint& x, double t) { return finite(value(x, t), where, x, t, inSpace); };
   return datum;
-}
-
-SpaceDatum finiteInSpace(const Expression& expression) {
-  SpaceDatum value = expression.inSpace;
-  if (!value)
-    value = [plane = Function(expression.value)](const SpacePoint& x, double t) {
-      return plane(x.x(), x.y(), t);
-    };
-  return [value = std::move(value), where = expression.where](const SpacePoint& x, double t) {
-    return finite(value(x, t), where, x.x(), x.y(), t, x.z());
-  };
-}
-
-SpaceDatum finiteAt(const Expression& expression, bool inSpace) {
-  if (inSpace) return finiteInSpace(expression);
-  return [value = Function(finiteValue(expression))](const SpacePoint& x, double t) {
-    return value(x.x(), x.y(), t);
-  };
 }
 
 namespace {
 
 template <class Place>
 double finiteAt(const Expression& expression, const Place& p, double t) {
-  SpacePoint x(p[0], p[1], 0);
-  std::optional<double> z;
-  if constexpr (Place::SizeAtCompileTime == 3) z = x[2] = p[2];
-  return finite(expression.at(x, t), expression.where, p[0], p[1], t, z);
+  constexpr bool inSpace = Place::SizeAtCompileTime == 3;
+  SpacePoint x = SpacePoint::Zero();
+  x.head<Place::SizeAtCompileTime>() = p;
+  return finite(expression.value(x, t), expression.where, x, t, inSpace);
 }
 
 }  // namespace

@@ -20,14 +20,11 @@ struct Expression {
   std::string text;       ///< as written, for messages and for FreeFEM
   std::string where;      ///< what a message about it begins with: `scenes/a.toml:14: body upper: ty = "1/t"`
   bool constant = false;  ///< depends on none of x, y, z, t
-  Datum value;            ///< at z = 0; copies are independent: a thread takes its own
+  Datum value;            ///< copies are independent: a thread takes its own
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
   bool inTime = false;              ///< depends on t
-  SpaceDatum inSpace = {};          ///< its value where it depends on z; empty elsewhere
   std::shared_ptr<const Formulas> formula =
       {};  ///< of a text that is no number; empty for numbers and tables
-
-  [[nodiscard]] double at(const SpacePoint& x, double t) const;
 };
 
 Expression constantExpression(double value, std::string where);
@@ -58,12 +55,8 @@ std::vector<double> valuesAt(const Expression& expression, const std::vector<Pla
 // The value of a datum, or what is wrong with it.
 
 /// The value of the expression. Where that is not finite the function \throws DatumError naming the datum,
-/// the point and the time.
-Datum finiteValue(const Expression& expression);
-/// The same in space.
-SpaceDatum finiteInSpace(const Expression& expression);
-/// One of them.
-SpaceDatum finiteAt(const Expression& expression, bool inSpace);
+/// the point and the time. \param inSpace  whether points have a z
+Datum finiteValue(const Expression& expression, bool inSpace = false);
 
 // What the text of an expression says about it without trying it at points.
 

@@ -29,8 +29,7 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
         call(c.value, body, &c.label);
       else if (c.value.inTime)
         work(c.value,
-             loadPlaces(c.value, c.point ? SpacePoint(c.point->x(), c.point->y(), 0) : *c.pointInSpace,
-                        scene.time.end));
+             loadPlaces(c.value, c.point ? asSpacePoint(*c.point) : *c.pointInSpace, scene.time.end));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) call(*force, body, nullptr);
@@ -64,7 +63,7 @@ Course resolvedBetween(const std::function<double(double)>& datum, const std::ve
   return course;
 }
 
-Course courseAt(const Expression& expression, const SpaceDatum& value, const SpacePoint& p,
+Course courseAt(const Expression& expression, const Datum& value, const SpacePoint& p,
                 const std::vector<double>& peaks, const SceneDescription& scene, int fine = 0) {
   const double end = scene.time.end;
   const auto datum = [value, p](double t) { return value(p, t); };
@@ -86,7 +85,7 @@ LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
   loads.breaks = scene.time.breaks;
   forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
     const auto fine = static_cast<int>(std::min(finest, affordable / places.points.size()));
-    const SpaceDatum value = finiteAt(expression, scene.inSpace());
+    const Datum value = finiteValue(expression, scene.inSpace());
     for (const SpacePoint& p : places.points) {
       Course course = courseAt(expression, value, p, places.times, scene, fine);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
@@ -106,7 +105,7 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
     if (expression.formula && proportionalToTime(*expression.formula)) return;
     double most = much;
     std::string warning;
-    const auto value = [&](const SpacePoint& p, double t) { return expression.at(p, t); };
+    const auto value = [&](const SpacePoint& p, double t) { return expression.value(p, t); };
     for (const SpacePoint& p : places.points) {
       const Course course = courseAt(expression, value, p, places.times, scene);
       // Of many steps most have no sample inside.

@@ -62,7 +62,7 @@ class Search {
       cells.pop();
       const SpacePoint place = cell.middle();
       const double t = (cell.time.least + cell.time.largest) / 2;
-      const double value = datum_.at(place, t);
+      const double value = datum_.value(place, t);
       const double over = std::max(value - known_.largest, known_.least - value);
       if (std::isfinite(over) && matters(over) && over > cell.beyond / 2) {
         places.push_back(place);
@@ -137,7 +137,7 @@ std::vector<SpacePoint> independent(const Expression& datum, const std::vector<S
   Matrix courses(times.size(), candidates.size());
   for (size_t j = 0; j < candidates.size(); ++j)
     for (size_t i = 0; i < times.size(); ++i) {
-      const double value = datum.at(candidates[j], times[i]);
+      const double value = datum.value(candidates[j], times[i]);
       courses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = std::isfinite(value) ? value : 0;
     }
   Eigen::ColPivHouseholderQR<Matrix> qr(courses);
@@ -157,7 +157,7 @@ LoadPlaces found(const Expression& datum, std::vector<SpacePoint> candidates, co
     Interval known{INFINITY, -INFINITY};
     for (const SpacePoint& p : candidates)
       for (const double t : times) {
-        const double value = datum.at(p, t);
+        const double value = datum.value(p, t);
         known = {std::min(known.least, value), std::max(known.largest, value)};
       }
     Search search(datum, known, end);

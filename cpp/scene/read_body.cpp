@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "fem/space_elements.h"
+#include "fem/supports.h"
 #include "scene/readers.h"
 
 namespace mortier {
@@ -10,15 +10,14 @@ namespace mortier {
 namespace {
 
 /// Two data for one component of one place would have to be ordered by a rule that nobody remembers.
-void addCondition(BodyDescription& body, const ConditionDescription& added, bool space) {
+void addCondition(BodyDescription& body, const ConditionDescription& added) {
   for (const ConditionDescription& other : body.conditions) {
     if (other.label == added.label && other.labelName == added.labelName && other.point == added.point &&
         other.pointInSpace == added.pointInSpace && other.component == added.component) {
-      static constexpr std::array directions{"component x", "component y", "the normal", "the tangent"};
-      static constexpr std::array inSpace{"component x", "component y", "component z", "the normal"};
-      throw InputError(added.value.where + ", expected one condition for " +
-                       (space ? inSpace : directions)[added.component] + " of " + nameOfPlace(added) +
-                       ", there is one at " + other.where);
+      static constexpr std::array directions{"component x", "component y", "component z", "the normal",
+                                             "the tangent"};
+      throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
+                       " of " + nameOfPlace(added) + ", there is one at " + other.where);
     }
   }
   body.conditions.push_back(added);
@@ -33,21 +32,19 @@ void readBoundary(const Node& node, BodyDescription& body) {
   const auto add = [&](const std::string& key, Datum kind, int component) {
     if (std::optional<Expression> datum = table.datum(key))
       addCondition(
-          body,
-          {kind, label.number, label.name, component,
-           key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where},
-          space);
+          body, {kind, label.number, label.name, component,
+                 key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where});
   };
   requireOfDimension(table, {"uz", "tz"}, {"ut"});
   add("ux", Datum::displacement, alongX);
   add("uy", Datum::displacement, alongY);
-  add("uz", Datum::displacement, spaceZ);
-  add("un", Datum::displacement, space ? int{spaceNormal} : int{alongNormal});
+  add("uz", Datum::displacement, alongZ);
+  add("un", Datum::displacement, alongNormal);
   add("ut", Datum::displacement, alongTangent);
   add("tx", Datum::traction, alongX);
   add("ty", Datum::traction, alongY);
-  add("tz", Datum::traction, spaceZ);
-  add("pressure", Datum::traction, space ? int{spaceNormal} : int{alongNormal});
+  add("tz", Datum::traction, alongZ);
+  add("pressure", Datum::traction, alongNormal);
   if (body.conditions.size() == before)
     table.refuse(node, "boundary label " + label.text() + " has no condition, expected one of ux, uy, " +
                            (space ? "uz, un, tx, ty, tz, pressure" : "un, ut, tx, ty, pressure"));
@@ -67,7 +64,7 @@ void readPoint(const Node& node, BodyDescription& body) {
   for (condition.component = 0; condition.component < 3; ++condition.component)
     if (const auto datum = table.datum(keys[condition.component])) {
       condition.value = *datum;
-      addCondition(body, condition, node.inSpace);
+      addCondition(body, condition);
     }
   if (body.conditions.size() == before)
     table.refuse(node, nameOfPlace(condition) + " has no condition, expected one of ux, uy" +

@@ -26,15 +26,7 @@ namespace {
 double workOfSupports(const Body& body, const Vector& forces, const Vector& du) {
   if (body.rigid()) return body.heldForce(forces).dot(body.motionOf(du));
   // Equations are orthonormal directions: what they leave is held.
-  if (body.space() != nullptr) return forces.dot(du) - body.gather(forces).dot(body.gather(du));
-  double work = 0;
-  for (const NodeSupport& support : body.supports().nodes()) {
-    const Point force = forces.segment<2>(2 * support.node);
-    const Point motion = du.segment<2>(2 * support.node);
-    const Point& n = support.directions[0];
-    work += support.count == 2 ? force.dot(motion) : n.dot(force) * n.dot(motion);
-  }
-  return work;
+  return forces.dot(du) - body.gather(forces).dot(body.gather(du));
 }
 
 /// sum |T| (s - X) : e, of the points that flow: elsewhere e is rounding.

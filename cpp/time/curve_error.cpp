@@ -22,11 +22,10 @@ void add(Lenses& lenses, const std::array<int, 3>& side, double volume, double t
 }
 
 /// Along the normal of a label.
-template <class Tractions, class At>
-double normalTraction(const Tractions& tractions, int label, int normal, const At& at) {
+double normalTraction(const Body& body, int label, const SpacePoint& at, double time) {
   double sum = 0;
-  for (const auto& traction : tractions)
-    if (traction.label == label && traction.component == normal) sum += at(traction.value);
+  for (const Condition& traction : body.conditions().tractions)
+    if (traction.label == label && traction.component == alongNormal) sum += traction.value(at, time);
   return sum;
 }
 
@@ -41,8 +40,7 @@ Lenses lensesOf(const Body& body, double time) {
     const Point off = mesh.edgeMiddles[e] - middle;
     add(lenses, sideOf(mesh.boundaryEdges[e]),
         2 / 3.0 * (off.x() * (b.y() - a.y()) - off.y() * (b.x() - a.x())) * body.depthAt(middle),
-        normalTraction(body.conditions().tractions, mesh.boundaryLabels[e], alongNormal,
-                       [&](const auto& value) { return value(middle.x(), middle.y(), time); }));
+        normalTraction(body, mesh.boundaryLabels[e], asSpacePoint(middle), time));
   }
   return lenses;
 }
@@ -130,16 +128,15 @@ class Behind {
 };
 
 /// Of what is quadratic over the triangles, from the normals at their vertices.
-Lenses lensesOf(const SpaceElements& space, const Behind& surface, double time) {
-  const TetrahedronMesh& mesh = space.mesh();
+Lenses lensesOf(const Body& body, const Behind& surface, double time) {
+  const TetrahedronMesh& mesh = body.space()->mesh();
   Lenses lenses;
   for (size_t t = 0; t < surface.count(); ++t) {
     const std::array<int, 3>& v = surface.triangle(t);
     const SpacePoint middle = (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3;
     add(lenses, sideOf(v),
         (surface.offset(t, 0) + surface.offset(t, 1) + surface.offset(t, 2)) / 3 * surface.area(t),
-        normalTraction(space.conditions().tractions, surface.label(t), spaceNormal,
-                       [&](const auto& value) { return value(middle, time); }));
+        normalTraction(body, surface.label(t), middle, time));
   }
   return lenses;
 }
@@ -147,14 +144,14 @@ Lenses lensesOf(const SpaceElements& space, const Behind& surface, double time) 
 /// What tractions on sides that are wider than meshed add to the nodes at their edges (dofs).
 Vector loadsOnWiderSides(const Body& body, const Behind& surface, double time) {
   Vector loads = Vector::Zero(body.dofs());
-  for (const SpaceCondition& traction : body.space()->conditions().tractions)
+  for (const Condition& traction : body.conditions().tractions)
     for (size_t t = 0; t < surface.count(); ++t)
       for (int k = 0; k < 3 && surface.label(t) == traction.label; ++k) {
         const double area = surface.widerAt(t, k);
         if (area == 0) continue;
         const std::array ends{surface.triangle(t)[k], surface.triangle(t)[(k + 1) % 3]};
         const SpacePoint middle = (body.placeOfNode(ends[0]) + body.placeOfNode(ends[1])) / 2;
-        const SpacePoint direction = traction.component < spaceNormal
+        const SpacePoint direction = traction.component < alongNormal
                                          ? SpacePoint(SpacePoint::Unit(traction.component))
                                          : surface.facet(t);
         for (const int node : ends)
@@ -179,7 +176,7 @@ std::vector<Lens> behind(const Lenses& lenses, const Mesh& mesh) {
 
 /// By elements behind them. \param surface  of a body in space
 std::vector<Lens> lensesBehind(const Body& body, const Behind* surface, double time) {
-  if (surface != nullptr) return behind(lensesOf(*body.space(), *surface, time), body.space()->mesh());
+  if (surface != nullptr) return behind(lensesOf(body, *surface, time), body.space()->mesh());
   return behind(lensesOf(body, time), body.mesh());
 }
 

@@ -44,7 +44,7 @@ bool unresolved(const Body& body, const Datum& datum) {
   return datum && datum.degree > body.degree();
 }
 
-bool isOnEdges(const PrescribedDisplacement& held) {
+bool isOnEdges(const Condition& held) {
   return !held.point && !held.onAxis;
 }
 
@@ -104,7 +104,7 @@ void MeshErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error
     for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
       if (mesh.boundaryLabels[e] == label) work(e, placesOf(body, e));
   };
-  for (const Traction& traction : body.conditions().tractions) {
+  for (const Condition& traction : body.conditions().tractions) {
     if (!unresolved(body, traction.value)) continue;
     std::vector<std::pair<size_t, ResolvedEdge>> edges;
     forEachEdge(traction.label, [&](size_t e, const std::vector<Point>& places) {
@@ -112,7 +112,7 @@ void MeshErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error
     });
     addTractions(b, edges, state, error);
   }
-  for (const PrescribedDisplacement& held : body.conditions().displacements) {
+  for (const Condition& held : body.conditions().displacements) {
     if (!isOnEdges(held) || !unresolved(body, held.value)) continue;
     forEachEdge(held.label, [&](size_t e, const std::vector<Point>& places) {
       addAtEdge(b, e, halfNorm(offInterpolant(body, held.value, places, state.time)) / 2, true, state, error);
@@ -205,9 +205,9 @@ void MeshErrorEstimator::readData() {
     if (!hasVaryingData(body)) continue;
     steadyData_[b] = Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size()));
     addTriangleData(b, 0, true, steadyData_[b]);
-    for (const Traction& each : body.conditions().tractions)
+    for (const Condition& each : body.conditions().tractions)
       if (unresolved(body, each.value)) addSides(static_cast<int>(b), each.label);
-    for (const PrescribedDisplacement& each : body.conditions().displacements)
+    for (const Condition& each : body.conditions().displacements)
       if (isOnEdges(each) && unresolved(body, each.value)) addSides(static_cast<int>(b), each.label);
   }
   for (size_t k = 0; k < model_.interfaces.size(); ++k)

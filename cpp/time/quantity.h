@@ -48,11 +48,10 @@ struct Quantity {
   std::vector<std::pair<int, double>> mean =
       {};  ///< of a displacement: nodes and their weights, which sum to one
   /// In place of the label: of a displacement, or of a reaction that of a held vertex [m]
-  std::optional<Point> point = {};
-  std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
-  std::optional<LinePart> part = {};            ///< of a mean pressure
-  std::vector<Vector> shares = {};              ///< of contact forces in it (time/mean_pressure.h)
-  bool whole = false;                           ///< of all of a rigid body, in place of a label
+  std::optional<SpacePoint> point = {};
+  std::optional<LinePart> part = {};  ///< of a mean pressure
+  std::vector<Vector> shares = {};    ///< of contact forces in it (time/mean_pressure.h)
+  bool whole = false;                 ///< of all of a rigid body, in place of a label
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, in space N, N m, m, m^2, J or Pa, or what they are
   /// in other units.
@@ -68,8 +67,7 @@ bool isMoment(Quantity::Component component);
 /// Whether the work done on bodies must be counted for it.
 bool needsWork(const Quantity& quantity);
 /// The first condition that holds a label of a body or, where one is given, a point; -1 for none.
-int firstSupport(const Body& body, int label, const std::optional<Point>& point,
-                 const std::optional<SpacePoint>& pointInSpace = {});
+int firstSupport(const Body& body, int label, const std::optional<SpacePoint>& point);
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);

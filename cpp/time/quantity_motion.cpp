@@ -1,46 +1,29 @@
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 
 #include "time/quantity_motion.h"
 
 namespace mortier {
 namespace {
 
-/// Writes into `motion` what makes its work with r that of the share of r along the conditions that `own`
-/// names.
-template <class Own>
-void addSupports(const Body& body, const Quantity& quantity, const Own& own, Vector& motion) {
+/// What makes its work with r that of the share of r along a condition.
+Vector motionOfSupports(const Body& body, const Quantity& quantity, int condition) {
+  Vector motion = Vector::Zero(body.dofs());
+  if (condition < 0) return motion;
+  const Condition& own = body.conditions().displacements[condition];
+  const int dimension = body.dimension();
   for (const NodeSupport& support : body.supports().nodes()) {
-    // r = sum of shares along the directions: rows of the inverse pick them.
-    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
-    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
-    const Eigen::Matrix2d shares =
-        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
-    const Point e = motionAt(quantity, body.placeOfNode(support.node)).head<2>();
+    std::array<double, 3> along{};
     for (int i = 0; i < support.count; ++i) {
-      const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
-      if (held.onAxis || !own(held.label, held.point, std::optional<SpacePoint>())) continue;
-      motion.segment<2>(2 * support.node) += support.directions[i].dot(e) * shares.row(i).transpose();
+      const Condition& held = body.conditions().displacements[support.conditions[i]];
+      if (held.point == own.point && held.onAxis == own.onAxis && held.label == own.label)
+        along[i] = support.directions[i].dot(motionAt(quantity, support.place));
     }
+    motion.segment(static_cast<Eigen::Index>(dimension) * support.node, dimension) =
+        support.motion(along).head(dimension);
   }
-}
-
-template <class Own>
-void addSpaceSupports(const Body& body, const Quantity& quantity, const Own& own, Vector& motion) {
-  for (const SpaceSupport& support : body.space()->supports()) {
-    // By the prescribed directions, which need not be orthogonal: D' shares = r on their span.
-    const Eigen::Index n = support.count;
-    const Matrix span = support.frame.topRows(n);
-    const Matrix inSpan = support.directions.topRows(n) * span.transpose();  // lower triangular
-    Vector along = support.directions.topRows(n) * motionAt(quantity, body.placeOfNode(support.node));
-    for (int i = 0; i < support.count; ++i) {
-      const SpaceCondition& held = body.space()->conditions().displacements[support.conditions[i]];
-      if (!own(held.label, std::optional<Point>(), held.point)) along[i] = 0;
-    }
-    motion.segment<3>(3 * support.node) +=
-        span.transpose() * inSpan.triangularView<Eigen::Lower>().solve(along);
-  }
+  return motion;
 }
 
 /// Of a body that does not strain: the part along the motions that are held.
@@ -77,17 +60,9 @@ SpacePoint normalAt(const ContactInterface& interface, int row) {
   return {n.x(), n.y(), 0};
 }
 
-int firstSupport(const Body& body, int label, const std::optional<Point>& point,
-                 const std::optional<SpacePoint>& pointInSpace) {
-  if (body.space() != nullptr) {
-    const std::vector<SpaceCondition>& held = body.space()->conditions().displacements;
-    const auto found = std::find_if(held.begin(), held.end(), [&](const SpaceCondition& each) {
-      return each.point == pointInSpace && (pointInSpace || each.label == label);
-    });
-    return found == held.end() ? -1 : static_cast<int>(found - held.begin());
-  }
-  const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
-  const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
+int firstSupport(const Body& body, int label, const std::optional<SpacePoint>& point) {
+  const std::vector<Condition>& held = body.conditions().displacements;
+  const auto found = std::find_if(held.begin(), held.end(), [&](const Condition& each) {
     return point ? each.point == point : each.actsOn(label);
   });
   return found == held.end() ? -1 : static_cast<int>(found - held.begin());
@@ -95,17 +70,7 @@ int firstSupport(const Body& body, int label, const std::optional<Point>& point,
 
 Vector reactionMotion(const Quantity& quantity, const Body& body) {
   if (body.rigid()) return rigidMotion(body, quantity);
-  Vector motion = Vector::Zero(body.dofs());
-  const int first = firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace);
-  const auto own = [&](int label, const std::optional<Point>& point,
-                       const std::optional<SpacePoint>& inSpace) {
-    return firstSupport(body, label, point, inSpace) == first;
-  };
-  if (body.space() != nullptr)
-    addSpaceSupports(body, quantity, own, motion);
-  else
-    addSupports(body, quantity, own, motion);
-  return motion;
+  return motionOfSupports(body, quantity, firstSupport(body, quantity.label, quantity.point));
 }
 
 Vector motionOf(const Quantity& quantity, const Model& model) {

@@ -43,22 +43,17 @@ double kappaOf(const Body& body) {
 SideSupport supportOf(const Body& body, int label, const SpacePoint& into, const SpacePoint& normal) {
   bool across = false;
   bool other = false;
-  const auto hold = [&](int component, int normals) {
-    if (component >= normals) {
-      (component == normals ? across : other) = true;
+  const auto hold = [&](int component) {
+    if (component >= alongNormal) {
+      (component == alongNormal ? across : other) = true;
       return;
     }
     const double n = std::abs(normal[component]);
     const double t = std::abs(into[component]);
     if (n * n + t * t > 0.5) (n > t ? across : other) = true;  // the others are along an edge in space
   };
-  if (const SpaceElements* space = body.space()) {
-    for (const SpaceCondition& held : space->conditions().displacements)
-      if (!held.point && held.label == label) hold(held.component, spaceNormal);
-  } else {
-    for (const PrescribedDisplacement& held : body.conditions().displacements)
-      if (held.actsOn(label)) hold(held.component, alongNormal);
-  }
+  for (const Condition& held : body.conditions().displacements)
+    if (held.actsOn(label)) hold(held.component);
   return across && other ? SideSupport::held : across || other ? SideSupport::sliding : SideSupport::free;
 }
 

@@ -256,13 +256,13 @@ inline KnownProblem lShapeInSpace(int cells, int degree) {
   problem.degree = degree;
   problem.spaceMeshes = {std::move(mesh)};
   problem.spaceModel = [=](std::vector<TetrahedronMesh> meshes) {
-    SpaceConditions conditions;
+    Conditions conditions;
     for (const int side : {bottom, right, top, left})
       for (const int c : {0, 1})
         conditions.displacements.push_back({side, 2 * c, [c](const SpacePoint& x, double t) {
                                               return t * LShape().displacement({x.x(), x.z()})[c];
                                             }});
-    for (const int side : {5, 6}) conditions.displacements.push_back({side, spaceY, steady(0)});
+    for (const int side : {5, 6}) conditions.displacements.push_back({side, alongY, steady(0)});
     Model model;
     model.bodies.emplace_back("L", std::move(meshes[0]), elasticMaterial(elasticity, Plane::none), conditions,
                               degree);

@@ -95,7 +95,7 @@ Datum of(std::function<double(double, double)> value) {
   return Datum(Function([value](double x, double y, double) { return value(x, y); }));
 }
 
-std::vector<PrescribedDisplacement> held() {
+std::vector<Condition> held() {
   return {{1, alongX, heldOnAxis().value}, {1, alongY, heldOnAxis().value}};
 }
 

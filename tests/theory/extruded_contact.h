@@ -10,10 +10,10 @@
 
 namespace mortier::scenes {
 
-inline SpaceDatum steady(double value) {
+inline Datum steady(double value) {
   return [value](const SpacePoint&, double) { return value; };
 }
-inline SpaceDatum growing(double value) {
+inline Datum growing(double value) {
   return [value](const SpacePoint&, double t) { return value * t; };
 }
 
@@ -80,14 +80,14 @@ struct Extruded {
     };
     const int held = mirrored ? bottom : top;
     return {mirrored ? "lower" : "upper", std::move(tetrahedra), elasticMaterial(elasticity, Plane::none),
-            SpaceConditions{{{held, spaceX, displacement(0)},
-                             {held, spaceZ, displacement(1)},
-                             {front, spaceY, steady(0)},
-                             {back, spaceY, steady(0)}},
-                            {{right, spaceX, traction(0, 1)},
-                             {right, spaceZ, traction(2, 1)},
-                             {left, spaceX, traction(0, -1)},
-                             {left, spaceZ, traction(2, -1)}}},
+            Conditions{{{held, alongX, displacement(0)},
+                        {held, alongZ, displacement(1)},
+                        {front, alongY, steady(0)},
+                        {back, alongY, steady(0)}},
+                       {{right, alongX, traction(0, 1)},
+                        {right, alongZ, traction(2, 1)},
+                        {left, alongX, traction(0, -1)},
+                        {left, alongZ, traction(2, -1)}}},
             degree};
   }
 };

@@ -129,9 +129,9 @@ TEST(Relaxation, bodiesWithoutStressStayAtRest) {
   for (const Plane plane : {Plane::stress, Plane::strain})
     for (const Scheme scheme : {Scheme::backwardEuler, Scheme::sdirk2}) {
       const auto material = viscoelasticMaterial({3e4, 0.3}, {1e-5, 0}, plane);
-      const std::vector<PrescribedDisplacement> above{{left, 0, constant(0)}, {top, 1, moved}};
-      const std::vector<PrescribedDisplacement> below{{left, 0, constant(0)}, {bottom, 1, constant(0)}};
-      std::vector<PrescribedDisplacement> both = below;
+      const std::vector<Condition> above{{left, 0, constant(0)}, {top, 1, moved}};
+      const std::vector<Condition> below{{left, 0, constant(0)}, {bottom, 1, constant(0)}};
+      std::vector<Condition> both = below;
       both.push_back(above[1]);
       const auto block = [](double lowerY, int cells) {  // on crisscross meshes every number is the same
         return rectangleMesh(

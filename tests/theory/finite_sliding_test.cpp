@@ -193,8 +193,8 @@ TEST(FiniteSliding, resumesToTheLastBit) {
 TEST(FiniteSliding, bodiesLeaveTheEnd) {
   const auto along = [](double, double, double t) { return 2 * std::max(t - 0.1, 0.0); };
   const auto block = [&](bool held) {
-    std::vector<PrescribedDisplacement> supports{{top, 0, along}};
-    std::vector<Traction> loads;
+    std::vector<Condition> supports{{top, 0, along}};
+    std::vector<Condition> loads;
     const auto down = [held](double, double, double t) {
       return held ? -1e-3 * std::min(10 * t, 1.0) : -std::min(10 * t, 1.0);
     };

@@ -10,16 +10,16 @@
 
 namespace mortier::point_supports_test {
 
-using Supports = std::vector<PrescribedDisplacement>;
+using Supports = std::vector<Condition>;
 
 Function constant(double value) {
   return [value](double, double, double) { return value; };
 }
 
 Supports heldAt(const Point& pinned, const Point& guided, int component) {
-  return {{0, alongX, constant(0), pinned},
-          {0, alongY, constant(0), pinned},
-          {0, component, constant(0), guided}};
+  return {{0, alongX, constant(0), asSpacePoint(pinned)},
+          {0, alongY, constant(0), asSpacePoint(pinned)},
+          {0, component, constant(0), asSpacePoint(guided)}};
 }
 
 /// A rectangle of 2 by 1 in pure shear s12 = 6, and bent by a moment where `bent`.

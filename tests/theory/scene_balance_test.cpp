@@ -65,10 +65,8 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
   size += load.cwiseAbs().sum() +
           contactForces(model, state.contactForce, state.frictionForce, b).cwiseAbs().sum();
   std::set<int> held;
-  for (const PrescribedDisplacement& support : body.conditions().displacements)
+  for (const Condition& support : body.conditions().displacements)
     if (!body.rigid()) held.insert(support.label);
-  if (body.space() != nullptr)
-    for (const SpaceCondition& support : body.space()->conditions().displacements) held.insert(support.label);
   if (body.rigid()) held.insert(0);  // whatever the label
   for (const int label : held) {
     const Wrench reaction = quantityOf(model, state, Kind::reaction, b, label);

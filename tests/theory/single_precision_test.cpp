@@ -38,20 +38,20 @@ void expectEqual(const Model& model, const Result& one, const Result& other, dou
   }
 }
 
-const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
+const Datum zero = [](const SpacePoint&, double) { return 0.0; };
 
 /// A block on another one, pressed at one side so that it lifts off at the other; contact alone holds it.
 Model pressedBlocks(bool flows) {
-  const SpaceDatum load = [](const SpacePoint& x, double t) { return -t * (x.x() < 0.5 ? 1 : 0); };
+  const Datum load = [](const SpacePoint& x, double t) { return -t * (x.x() < 0.5 ? 1 : 0); };
   const auto material = flows ? perzynaMaterial({1000, 0.3}, {10, 0.5, Projection::elasticity}, Plane::none)
                               : elasticMaterial({1000, 0.3}, Plane::none);
   Model model;
-  model.bodies.emplace_back(
-      "upper", cuboidMesh({{0.2, 0.2, 0}, {0.8, 0.8, 0.3}, {6, 6, 3}}), material,
-      SpaceConditions{{{left, spaceX, zero}, {front, spaceY, zero}}, {{top, spaceZ, load}}}, 2);
+  model.bodies.emplace_back("upper", cuboidMesh({{0.2, 0.2, 0}, {0.8, 0.8, 0.3}, {6, 6, 3}}), material,
+                            Conditions{{{left, alongX, zero}, {front, alongY, zero}}, {{top, alongZ, load}}},
+                            2);
   model.bodies.emplace_back(
       "lower", cuboidMesh({{0, 0, -0.5}, {1, 1, 0}, {7, 7, 4}}), material,
-      SpaceConditions{{{bottom, spaceX, zero}, {bottom, spaceY, zero}, {bottom, spaceZ, zero}}, {}}, 2);
+      Conditions{{{bottom, alongX, zero}, {bottom, alongY, zero}, {bottom, alongZ, zero}}, {}}, 2);
   addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
   return model;
 }
@@ -78,12 +78,11 @@ TEST(SinglePrecision, servesBodiesThatFlow) {
 
 // A bar so slender that single precision has nothing left of its stiffness against bending.
 TEST(SinglePrecision, isGivenUpWhereItDoesNotDo) {
-  const SpaceDatum load = [](const SpacePoint&, double t) { return t; };
+  const Datum load = [](const SpacePoint&, double t) { return t; };
   Model model;
   model.bodies.emplace_back(
       "bar", cuboidMesh({{0, 0, 0}, {400, 1, 1}, {400, 1, 1}}), elasticMaterial({1000, 0.3}, Plane::none),
-      SpaceConditions{{{left, spaceX, zero}, {left, spaceY, zero}, {left, spaceZ, zero}},
-                      {{top, spaceZ, load}}},
+      Conditions{{{left, alongX, zero}, {left, alongY, zero}, {left, alongZ, zero}}, {{top, alongZ, load}}},
       1);
   const Result exact = solve(model, LinearEngine::multifrontal);
   const Result given = solve(model, LinearEngine::single);

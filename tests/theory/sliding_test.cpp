@@ -33,7 +33,7 @@ Model uniformBlocks(const Rows& coupling, int nonmortarBody, const Friction& fri
   const auto at = [](double value) {
     return Function([value](double, double, double t) { return value * t; });
   };
-  const auto sides = [&](double sign) { return Traction{sign > 0 ? right : left, 1, at(sign * s)}; };
+  const auto sides = [&](double sign) { return Condition{sign > 0 ? right : left, 1, at(sign * s)}; };
   Body upper("upper", square(0, 5), elasticMaterial({soft, 0}),
              {{{top, 0, at(along)}, {top, 1, at(down)}}, {sides(1), sides(-1)}, {}}, degree);
   Body lower("lower", square(-1, 7), elasticMaterial({hard, 0}),

@@ -84,15 +84,14 @@ TEST(SpaceContact, compressionIsExact) {
   for (const auto& [coupling, degree] :
        {std::pair{CouplingKind::weighted, 1}, {CouplingKind::mortar, 1}, {CouplingKind::weighted, 2}}) {
     Model model;
-    const std::vector<SpaceCondition> rollers{{left, spaceX, steady(0)}, {front, spaceY, steady(0)}};
-    std::vector<SpaceCondition> held = rollers;
-    held.push_back({bottom, spaceZ, steady(0)});
+    const std::vector<Condition> rollers{{left, alongX, steady(0)}, {front, alongY, steady(0)}};
+    std::vector<Condition> held = rollers;
+    held.push_back({bottom, alongZ, steady(0)});
     model.bodies.emplace_back("upper", cuboidMesh({{0, 0, 0}, {1, 1, 1}, {3, 4, 2}}),
                               perzynaMaterial(elasticity, law, Plane::none),
-                              SpaceConditions{rollers, {{top, spaceZ, growing(-10)}}}, degree);
+                              Conditions{rollers, {{top, alongZ, growing(-10)}}}, degree);
     model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {4, 3, 3}}),
-                              perzynaMaterial(elasticity, law, Plane::none), SpaceConditions{held, {}},
-                              degree);
+                              perzynaMaterial(elasticity, law, Plane::none), Conditions{held, {}}, degree);
     addInterface(model, {{0, bottom}, {1, top}, coupling});
     constexpr int steps = 10;
     const auto [state, report] = scenes::run(model, 1, steps);
@@ -122,15 +121,15 @@ TEST(SpaceContact, compressionIsExact) {
 
 TEST(SpaceContact, threadsChangeNoBit) {
   Model model;
-  const std::vector<SpaceCondition> rollers{{left, spaceX, steady(0)}, {front, spaceY, steady(0)}};
-  std::vector<SpaceCondition> held = rollers;
-  held.push_back({bottom, spaceZ, steady(0)});
+  const std::vector<Condition> rollers{{left, alongX, steady(0)}, {front, alongY, steady(0)}};
+  std::vector<Condition> held = rollers;
+  held.push_back({bottom, alongZ, steady(0)});
   const auto pressed = [](const SpacePoint& x, double t) { return -10 * t * (1 + x.x() * x.y()); };
   const auto material = perzynaMaterial({1000, 0.3}, {10, 1}, Plane::none);
   model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {6, 6, 6}}), material,
-                            SpaceConditions{rollers, {{top, spaceZ, pressed}}}, 2);
+                            Conditions{rollers, {{top, alongZ, pressed}}}, 2);
   model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {7, 7, 7}}), material,
-                            SpaceConditions{held, {}}, 2);
+                            Conditions{held, {}}, 2);
   addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
   ASSERT_EQ(threadsFor(model, 3), 3);
   const auto with = [&](int threads) {

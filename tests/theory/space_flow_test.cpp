@@ -14,10 +14,10 @@ enum : int { bottom = 1, right, top, left, front, back };
 constexpr double young = 1000;
 
 Body block(const std::string& name, const Cuboid& cuboid, int held, double lowered) {
-  SpaceConditions conditions;
-  for (const int c : {spaceX, spaceY, spaceZ})
+  Conditions conditions;
+  for (const int c : {alongX, alongY, alongZ})
     conditions.displacements.push_back(
-        {held, c, [lowered, c](const SpacePoint&, double t) { return c == spaceZ ? -lowered * t : 0.0; }});
+        {held, c, [lowered, c](const SpacePoint&, double t) { return c == alongZ ? -lowered * t : 0.0; }});
   return {name, cuboidMesh(cuboid), perzynaMaterial({young, 0.3}, {10, 1}, Plane::none),
           std::move(conditions), 2};
 }

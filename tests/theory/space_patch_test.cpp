@@ -20,7 +20,7 @@ constexpr double pressure = 10;
 
 using SpaceMap = std::function<SpacePoint(const SpacePoint&)>;
 
-SpaceDatum constant(double value) {
+Datum constant(double value) {
   return [value](const SpacePoint&, double t) { return value * t; };
 }
 
@@ -47,12 +47,12 @@ TetrahedronMesh block(const Cuboid& cuboid, unsigned seed, const SpaceMap& map) 
 Body hydrostatic(const std::string& name, TetrahedronMesh mesh, const std::vector<int>& held,
                  const std::vector<int>& pressed, int degree, bool averaged = false) {
   const double strain = -pressure * (1 - 2 * elasticity.poisson) / elasticity.young;
-  SpaceConditions conditions;
+  Conditions conditions;
   for (const int label : held)
     for (const int c : {0, 1, 2})
       conditions.displacements.push_back(
           {label, c, [=](const SpacePoint& x, double t) { return t * strain * x[c]; }});
-  for (const int label : pressed) conditions.tractions.push_back({label, spaceNormal, constant(-pressure)});
+  for (const int label : pressed) conditions.tractions.push_back({label, alongNormal, constant(-pressure)});
   return {name,   std::move(mesh), elasticMaterial(elasticity, Plane::none), std::move(conditions),
           degree, averaged};
 }
@@ -210,9 +210,9 @@ TEST(SpacePatch, interpolationFails) {
 // Contact alone holds the upper block along z; along x and y, and about z, nothing does.
 TEST(SpacePatch, freeMotionsAreNamed) {
   const SpaceMap same = [](const SpacePoint& x) { return x; };
-  const auto model = [&](std::vector<SpaceCondition> held) {
+  const auto model = [&](std::vector<Condition> held) {
     Model both;
-    SpaceConditions conditions{std::move(held), {{top, spaceNormal, constant(-pressure)}}};
+    Conditions conditions{std::move(held), {{top, alongNormal, constant(-pressure)}}};
     both.bodies.emplace_back("upper", block({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, 1, same),
                              elasticMaterial(elasticity, Plane::none), conditions, 1);
     both.bodies.push_back(
@@ -221,14 +221,13 @@ TEST(SpacePatch, freeMotionsAreNamed) {
     return both;
   };
   const auto fixed = [](const SpacePoint& at, int component) {
-    return SpaceCondition{0, component, constant(0), at};
+    return Condition{0, component, constant(0), at};
   };
   const auto run = [&](const Model& both) {
     State state = initialState(both);
     return march(both, state, {.end = 1, .steps = 1}, {}, [](const State&, const StepReport&) {});
   };
-  const auto expectNamed = [&](std::vector<SpaceCondition> conditions,
-                               const std::vector<std::string>& words) {
+  const auto expectNamed = [&](std::vector<Condition> conditions, const std::vector<std::string>& words) {
     try {
       run(model(std::move(conditions)));
       FAIL() << "nothing holds " << words.front();
@@ -237,10 +236,10 @@ TEST(SpacePatch, freeMotionsAreNamed) {
         EXPECT_NE(std::string(error.what()).find(each), std::string::npos) << error.what();
     }
   };
-  expectNamed({fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)}, {"translation along x"});
-  expectNamed({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY)},
+  expectNamed({fixed({0, 0, 1}, alongY), fixed({1, 0, 1}, alongY)}, {"translation along x"});
+  expectNamed({fixed({0, 0, 1}, alongX), fixed({0, 0, 1}, alongY)},
               {"about the line through (0, 0", "along z"});
-  const Model held = model({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)});
+  const Model held = model({fixed({0, 0, 1}, alongX), fixed({0, 0, 1}, alongY), fixed({1, 0, 1}, alongY)});
   EXPECT_EQ(run(held).status, Status::converged);
 }
 

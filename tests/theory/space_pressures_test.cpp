@@ -14,15 +14,15 @@ enum : int { bottom = 1, right, top, left, front, back };
 
 Body block(const std::string& name, double z, const std::array<int, 3>& cells, double young, int degree,
            bool loaded) {
-  SpaceConditions conditions;
-  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
-  for (const int side : {left, right}) conditions.displacements.push_back({side, spaceX, zero});
-  for (const int side : {front, back}) conditions.displacements.push_back({side, spaceY, zero});
+  Conditions conditions;
+  const Datum zero = [](const SpacePoint&, double) { return 0.0; };
+  for (const int side : {left, right}) conditions.displacements.push_back({side, alongX, zero});
+  for (const int side : {front, back}) conditions.displacements.push_back({side, alongY, zero});
   if (loaded)
     conditions.tractions.push_back(
-        {top, spaceZ, [](const SpacePoint& x, double t) { return -t * (1 + 0.5 * std::cos(M_PI * x.x())); }});
+        {top, alongZ, [](const SpacePoint& x, double t) { return -t * (1 + 0.5 * std::cos(M_PI * x.x())); }});
   else
-    conditions.displacements.push_back({bottom, spaceZ, zero});
+    conditions.displacements.push_back({bottom, alongZ, zero});
   return {name, cuboidMesh({{0, 0, z}, {1, 1, z + 1}, cells}), elasticMaterial({young, 0.3}, Plane::none),
           std::move(conditions), degree};
 }

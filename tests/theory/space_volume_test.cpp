@@ -17,7 +17,7 @@ namespace mortier::space_volume_test {
 enum : int { bottom = 1, right, top, left, front, back };
 constexpr Elasticity rubber{1, 0.4999};
 
-SpaceDatum constant(double value) {
+Datum constant(double value) {
   return [value](const SpacePoint&, double) { return value; };
 }
 
@@ -51,11 +51,11 @@ double cook(int cells, bool averaged) {
     x = SpacePoint(48 * x.x(), 44 * x.x() + (44 - 28 * x.x()) * x.y(), 48 * x.z());
   validate(mesh);
   Model model;
-  const auto held = [](int label, int component) { return SpaceCondition{label, component, constant(0)}; };
+  const auto held = [](int label, int component) { return Condition{label, component, constant(0)}; };
   model.bodies.emplace_back(
       "membrane", std::move(mesh), elasticMaterial(rubber, Plane::none),
-      SpaceConditions{{held(left, spaceX), held(left, spaceY), held(bottom, spaceZ), held(top, spaceZ)},
-                      {{right, spaceY, constant(1.0 / 16)}}},
+      Conditions{{held(left, alongX), held(left, alongY), held(bottom, alongZ), held(top, alongZ)},
+                 {{right, alongY, constant(1.0 / 16)}}},
       1, averaged);
   const State state = solved(model);
   double deflection = 0;
@@ -133,7 +133,7 @@ struct Errors {
 
 Errors errorsOn(int cells, bool averaged, double poisson) {
   const Field exact{poisson};
-  SpaceConditions conditions;
+  Conditions conditions;
   for (const int label : {bottom, top, left, front, back})
     for (const int c : {0, 1, 2})
       conditions.displacements.push_back(
@@ -214,14 +214,14 @@ double punch(int cells, int degree, bool averaged, double shaken) {
     for (const int v : mesh.boundaryTriangles[i]) middle += mesh.vertices[v] / 3;
     if (mesh.boundaryLabels[i] == top && middle.x() < 1 && middle.y() < 1) mesh.boundaryLabels[i] = under;
   }
-  const auto held = [](int label, int component) { return SpaceCondition{label, component, constant(0)}; };
-  SpaceConditions conditions{{held(left, spaceX),
-                              held(right, spaceX),
-                              held(front, spaceY),
-                              held(back, spaceY),
-                              held(bottom, spaceZ),
-                              {under, spaceZ, [](const SpacePoint&, double t) { return -0.1 * t; }}},
-                             {}};
+  const auto held = [](int label, int component) { return Condition{label, component, constant(0)}; };
+  Conditions conditions{{held(left, alongX),
+                         held(right, alongX),
+                         held(front, alongY),
+                         held(back, alongY),
+                         held(bottom, alongZ),
+                         {under, alongZ, [](const SpacePoint&, double t) { return -0.1 * t; }}},
+                        {}};
   Model model;
   model.bodies.emplace_back("ground", std::move(mesh), perzynaMaterial({1000, 0.3}, {1e-4, 1}, Plane::none),
                             std::move(conditions), degree, averaged);
@@ -245,15 +245,15 @@ TEST(AveragedVolumeInSpace, punchOnABodyThatFlows) {
 // Blocks under uniform pressure on meshes that do not match: the stress is exact.
 TEST(AveragedVolumeInSpace, patchTestAcrossContact) {
   const auto held = [](int label, int component, double value) {
-    return SpaceCondition{label, component, constant(value)};
+    return Condition{label, component, constant(value)};
   };
   Model model;
   model.bodies.emplace_back(
       "upper", shakenBox({{0, 0, 0}, {1, 1, 1}, {4, 3, 3}}), elasticMaterial(rubber, Plane::none),
-      SpaceConditions{{held(left, spaceX, 0), held(front, spaceY, 0)}, {held(top, spaceZ, -0.01)}}, 1, true);
+      Conditions{{held(left, alongX, 0), held(front, alongY, 0)}, {held(top, alongZ, -0.01)}}, 1, true);
   model.bodies.emplace_back(
       "lower", shakenBox({{0, 0, -1}, {1, 1, 0}, {5, 4, 4}}), elasticMaterial(rubber, Plane::none),
-      SpaceConditions{{held(left, spaceX, 0), held(front, spaceY, 0), held(bottom, spaceZ, 0)}, {}}, 1, true);
+      Conditions{{held(left, alongX, 0), held(front, alongY, 0), held(bottom, alongZ, 0)}, {}}, 1, true);
   addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
   const State state = solved(model);
   const Eigen::Vector<double, 6> exact = componentsOf(SpacePoint(0, 0, -0.01).asDiagonal());

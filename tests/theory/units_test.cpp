@@ -86,12 +86,12 @@ TEST(Units, ofSpaceDoNotChangeTheEstimatedError) {
     constexpr int bottom = 1;
     constexpr int top = 3;
     Model model;
-    model.bodies.emplace_back(
-        "upper", box(0, 2), material,
-        SpaceConditions{{{4, spaceX, still}, {5, spaceY, still}}, {{top, spaceZ, pressure}}}, 1);
+    model.bodies.emplace_back("upper", box(0, 2), material,
+                              Conditions{{{4, alongX, still}, {5, alongY, still}}, {{top, alongZ, pressure}}},
+                              1);
     model.bodies.emplace_back(
         "lower", box(-1, 3), material,
-        SpaceConditions{{{4, spaceX, still}, {5, spaceY, still}, {bottom, spaceZ, still}}, {}}, 1);
+        Conditions{{{4, alongX, still}, {5, alongY, still}, {bottom, alongZ, still}}, {}}, 1);
     addInterface(model, {{0, bottom}, {1, top}, CouplingKind::weighted});
     const auto [state, report] = scenes::run(model, 1, 1);
     EXPECT_EQ(report.status, Status::converged) << report.reason;

@@ -29,8 +29,7 @@ Sizes sizesOf(const Body& body) {
 
 Sizes ofRound(bool ball, int cells, int degree) {
   const RoundBody round{.ball = ball, .radius = 2, .height = 3, .keep = {1, -1, 0}, .cells = {cells, 2}};
-  return sizesOf(
-      {"round", roundMesh(round), elasticMaterial({1, 0.3}, Plane::none), SpaceConditions{}, degree});
+  return sizesOf({"round", roundMesh(round), elasticMaterial({1, 0.3}, Plane::none), Conditions{}, degree});
 }
 
 TEST(CurveError, volumesAreThoseOfCylindersAndBalls) {
@@ -71,7 +70,7 @@ TEST(CurveError, sidesGrowToArcsSpheresAndDiscs) {
   // The curved side of a quarter of a ball, and the top of a quarter of a cylinder, which ends at a curve.
   for (const auto& [ball, label, exact] : {std::tuple(true, 7, 4 * pi), std::tuple(false, 3, pi)}) {
     const RoundBody round{.ball = ball, .radius = 2, .height = 3, .keep = {1, -1, 0}, .cells = {4, 2}};
-    const Body body("round", roundMesh(round), elasticMaterial({1, 0.3}, Plane::none), SpaceConditions{}, 1);
+    const Body body("round", roundMesh(round), elasticMaterial({1, 0.3}, Plane::none), Conditions{}, 1);
     const double missing = exact - areaOf(body.space()->mesh(), label);
     EXPECT_GT(missing, 0.005 * exact);
     EXPECT_NEAR(growthOfSide(body, label, std::vector<char>(body.nodes(), 1)), missing, 0.1 * missing);
@@ -79,7 +78,7 @@ TEST(CurveError, sidesGrowToArcsSpheresAndDiscs) {
 }
 
 TEST(CurveError, flatSidesHaveNone) {
-  const Body cube("cube", cuboidMesh({}), elasticMaterial({1, 0.3}, Plane::none), SpaceConditions{}, 1);
+  const Body cube("cube", cuboidMesh({}), elasticMaterial({1, 0.3}, Plane::none), Conditions{}, 1);
   EXPECT_EQ(volumeBehindSides(cube).cwiseAbs().maxCoeff(), 0);
 }
 

@@ -30,7 +30,7 @@ double largest(const std::string& text, const LoadPlaces& places) {
   for (int i = 0; i <= 500; ++i) times.push_back(end * i / 500);
   double most = 0;
   for (const SpacePoint& p : places.points)
-    for (const double t : times) most = std::max(most, datum.at(p, t));
+    for (const double t : times) most = std::max(most, datum.value(p, t));
   return most;
 }
 double largest(const std::string& text, const int* label = &top) {
@@ -55,10 +55,9 @@ TEST(LoadPlaces, degreesInTimeAreKnown) {
 TEST(LoadPlaces, dataThatAreLinearInTimeAreReadAtTheirEnds) {
   int calls = 0;
   Expression datum = parseExpression("t*sin(20*x)", "test");
-  const Function value = datum.value;
-  static_cast<Function&>(datum.value) = [&](double x, double y, double t) {
+  datum.value.value = [&calls, value = datum.value.value](const SpacePoint& x, double t) {
     ++calls;
-    return value(x, y, t);
+    return value(x, t);
   };
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
   EXPECT_EQ(loadPlaces(datum, mesh, &top, end).points.size(), 1);

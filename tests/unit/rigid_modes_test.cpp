@@ -17,7 +17,7 @@ using namespace plate;
 
 TEST(RigidModes, supportsLeaveTheRestFree) {
   struct Case {
-    std::vector<PrescribedDisplacement> supports;
+    std::vector<Condition> supports;
     int motions;
     std::string words;  ///< of the only motion, either way
   };
@@ -55,7 +55,7 @@ TEST(RigidModes, supportsLeaveTheRestFree) {
   EXPECT_EQ(describeRigidMotion(plate, turn), "rotation about (-0.5, 3)");
 }
 
-Body elastic(TriangleMesh mesh, std::vector<PrescribedDisplacement> supports = {}) {
+Body elastic(TriangleMesh mesh, std::vector<Condition> supports = {}) {
   validate(mesh);
   return {"body", std::move(mesh), elasticMaterial({1, 0.3}), {std::move(supports), {}, {}}};
 }
@@ -104,7 +104,7 @@ TEST(RigidModes, aPartBesideAndAFlapAreNamedWithTheirPlace) {
   flap.vertices.insert(flap.vertices.end(), {Point(3, 1), Point(3, 3)});
   flap.triangles.push_back({corner, first, first + 1});
   flap.regions.push_back(1);
-  const std::vector<PrescribedDisplacement> held{{left, 0, constant(0)}, {left, 1, constant(0)}};
+  const std::vector<Condition> held{{left, 0, constant(0)}, {left, 1, constant(0)}};
   const Body beside = elastic(apart, held);
   ASSERT_EQ(rigidModes(beside).cols(), 3);
   EXPECT_NE(describeRigidMotion(beside, rigidModes(beside).col(0)).find("of its part around (5.333, 1)"),

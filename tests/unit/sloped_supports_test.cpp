@@ -21,8 +21,8 @@ TEST(SlopedSupports, haveOneDirectionAtAllNodesOfAStraightSide) {
     for (Point& x : mesh.vertices) x = turn * x;
     const Supports supports(mesh, {{bottom, alongNormal, [](double, double, double) { return 0.0; }}});
     ASSERT_EQ(supports.nodes().size(), cells + 1u);
-    const Point& first = supports.nodes().front().directions[0];
-    EXPECT_LE((first - turn * Point(0, -1)).norm(), 1e-14);
+    const SpacePoint& first = supports.nodes().front().directions[0];
+    EXPECT_LE((first.head<2>() - turn * Point(0, -1)).norm(), 1e-14);
     for (const NodeSupport& support : supports.nodes()) EXPECT_EQ(support.directions[0], first);
   }
 }

@@ -256,7 +256,7 @@ TEST_F(SpaceMesh, initialStressesAndExpansionsAreThoseOfRegions) {
   const auto constant = [](double value) {
     return [value](const SpacePoint& /*x*/, double /*t*/) { return value; };
   };
-  SpaceConditions conditions;
+  Conditions conditions;
   conditions.initialStresses = {{0, {}, constant(5)},
                                 {3, {}, constant(1)},
                                 {0, 2, constant(7)},

@@ -106,8 +106,8 @@ Model cube(std::shared_ptr<const Material> material) {
   const auto zero = [](const SpacePoint&, double) { return 0.0; };
   model.bodies.emplace_back(
       "cube", cuboidMesh({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}), std::move(material),
-      SpaceConditions{{{4, spaceX, zero}, {5, spaceY, zero}, {1, spaceZ, zero}},
-                      {{3, spaceZ, [](const SpacePoint& x, double t) { return t * (3 - 8 * x.x()); }}}},
+      Conditions{{{4, alongX, zero}, {5, alongY, zero}, {1, alongZ, zero}},
+                 {{3, alongZ, [](const SpacePoint& x, double t) { return t * (3 - 8 * x.x()); }}}},
       1);
   return model;
 }

@@ -38,13 +38,6 @@ TEST(TwoPartVector, componentsAreSetInBothParts) {
   u.set(2, -4);
   EXPECT_EQ(u.high[2], -4);
   EXPECT_EQ(u.low[2], 0);
-  const Point direction(0.6, 0.8);
-  u.setAlong(0, direction, 5);
-  EXPECT_NEAR(direction.dot(u.high.head<2>()), 5, 1e-15);
-  EXPECT_NEAR(direction.dot(u.low.head<2>()), 0, 1e-35);
-  const Point across(-0.8, 0.6);
-  EXPECT_NEAR(across.dot(u.high.head<2>()), across.dot(Point(1, 2)), 1e-15);
-  EXPECT_NEAR(across.dot(u.low.head<2>()), across.dot(Point(1e-20, 2e-20)), 1e-35);
 }
 
 }  // namespace mortier::two_part_vector_test

@@ -66,7 +66,7 @@ constexpr Kind kinds[] = {{1, Plane::strain},
 
 struct BodyConditions {
   Conditions plane = {};
-  SpaceConditions space = {};
+  Conditions space = {};
 };
 
 Body body(const Kind& kind, bool averaged = true, BodyConditions conditions = {},
@@ -80,10 +80,10 @@ Body body(const Kind& kind, bool averaged = true, BodyConditions conditions = {}
 
 /// Supports, some of them across the axes.
 BodyConditions held(const Kind& kind) {
-  std::vector<PrescribedDisplacement> turned{{1, alongNormal, constant(0)}, {4, alongX, constant(0)}};
+  std::vector<Condition> turned{{1, alongNormal, constant(0)}, {4, alongX, constant(0)}};
   if (!kind.aboutAxis()) turned.push_back({2, alongTangent, constant(0)});
-  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
-  return {{turned, {}, {}}, {{{1, spaceNormal, zero}, {2, spaceNormal, zero}, {4, spaceX, zero}}, {}}};
+  const Datum zero = [](const SpacePoint&, double) { return 0.0; };
+  return {{turned, {}, {}}, {{{1, alongNormal, zero}, {2, alongNormal, zero}, {4, alongX, zero}}, {}}};
 }
 
 Matrix strainOf(const Body& body, const Vector& u) {
