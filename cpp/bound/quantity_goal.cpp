@@ -131,7 +131,7 @@ Goal goalOf(const Admissible& pair, const Quantity& quantity, BoundSide side) {
   } else if (quantity.kind == Quantity::Kind::meanPressure) {
     weighPart(pair, quantity, side, goal.r);
   } else if (quantity.point) {
-    goal.triangle = triangleAt(body.mesh(), *quantity.point);
+    goal.triangle = triangleAt(body.mesh(), quantity.point->head<2>());
     if (goal.triangle < 0) {
       goal.obstacle = "the point is in no triangle";
       return goal;

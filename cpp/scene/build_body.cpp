@@ -161,9 +161,9 @@ void requireOneDisplacement(const Body& body, std::vector<const ConditionDescrip
       const int same = support.same(motion.direction);
       for (int i = same < 0 ? 0 : same; i < (same < 0 ? support.count : same + 1); ++i)
         who += (who.empty() ? "" : " and ") + nameOfPlace(*described[support.conditions[i]]);
-      throw InputError(described[motion.condition]->value.where + " at " +
-                       (body.dimension() == 2 ? shortest(Point(p.head<2>())) : shortest(p)) +
-                       ", t = " + shortest(t) + ": expected the " + shortest(implied) + " that " + who +
+      throw InputError(described[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " +
+                       shortest(p[1]) + (body.dimension() == 3 ? ", " + shortest(p[2]) : "") +
+                       "), t = " + shortest(t) + ": expected the " + shortest(implied) + " that " + who +
                        (same < 0 && support.count > 1 ? " prescribe" : " prescribes") + " there");
     }
   }

@@ -186,7 +186,7 @@ TEST(CreepBenchmarks, bentBeamTendsToTheSteadyStresses) {
       {},
       {}};
   Conditions held = conditions;
-  held.displacements.push_back({0, alongY, constant(0), Point(0, -depth)});
+  held.displacements.push_back({0, alongY, constant(0), SpacePoint(0, -depth, 0)});
   Model model;
   model.bodies.emplace_back(
       "beam", crissCrossMesh({.lower = {0, -depth}, .upper = {length, depth}, .cellsX = 8, .cellsY = 8}),

@@ -305,7 +305,7 @@ TEST(AveragedVolume, freeThermalStrainIsNoStress) {
       Conditions conditions;
       for (const auto& [at, component] :
            {std::pair(Point(0, 0), alongX), {Point(0, 0), alongY}, {Point(1, 0), alongY}})
-        conditions.displacements.push_back({0, component, constant(0), at});
+        conditions.displacements.push_back({0, component, constant(0), asSpacePoint(at)});
       conditions.temperature = [](double x, double, double t) { return t * x; };
       conditions.expansion =
           Matrix::Zero(4, static_cast<Eigen::Index>(mesh.triangles.size()) * (degree == 1 ? 1 : 3));
