@@ -88,7 +88,8 @@ inline RandomLine randomLine(unsigned seed, int most, const RandomUnits& units =
       conditions.tractions = {{top, 1, load}};
       if (held == 0) conditions.displacements = {{left, 0, constant(0)}, {left, 1, constant(0)}};
       if (held == 2) conditions.displacements = {{left, 0, constant(0)}};
-      if (held == 3) conditions.displacements = {{0, 0, constant(0), SpacePoint(0, upper, 0)}};  // against turning
+      if (held == 3)
+        conditions.displacements = {{0, 0, constant(0), SpacePoint(0, upper, 0)}};  // against turning
     }
     line.model.bodies.emplace_back("body " + std::to_string(b),
                                    bent(crissCrossMesh({{0, y}, {length, upper}, along, across})),

@@ -95,8 +95,8 @@ class HostileText(support.OfTwoBlocks):
                     self.assertTrue(shown[0].isprintable(), text)
 
     def test_long_settings_and_tables(self):
-        table = ("{time=[" + ",".join(str(i / 7000) for i in range(5000)) + "], value=[" + ",".join(["1"] * 5000)
-                 + "]}")
+        table = ("{time=[" + ",".join(str(i / 7000) for i in range(5000)) + "], value=["
+                 + ",".join(["1"] * 5000) + "]}")
         setting = f"body.upper.boundary.3.ty={table}"
         for command in ("check", "run"):
             done = support.mortier(command, "scene.toml", "--set", setting[:-1] + ", x=1}", cwd=self.folder,
