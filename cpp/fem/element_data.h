@@ -69,6 +69,7 @@ template <class ElementOf, bool aboutAxis, bool averaged>
 class PlanePoint {
  public:
   using Element = ElementOf;
+  static constexpr bool balances = !aboutAxis;  ///< whether the forces of a stress on all nodes sum to zero
 
   struct Column {
     double sum;         ///< of the rows p and q of D B
@@ -156,6 +157,7 @@ template <class ElementOf, bool averaged>
 class SolidPoint {
  public:
   using Element = ElementOf;
+  static constexpr bool balances = true;
   using Column = Eigen::Matrix3d;  ///< tensorOfStress
 
   SolidPoint(const ElementData<3>& elements, int i)
@@ -169,6 +171,16 @@ class SolidPoint {
     if constexpr (averaged) B.row(5).setZero();
     const NodeStrain DB = D_ * B;
     return {own(DB.col(0)), own(DB.col(1)), own(DB.col(2))};
+  }
+  /// The sum of all columns and rows of a point.
+  template <class Stiffness>
+  void addTo(Stiffness& K) const {
+    Eigen::Matrix<double, 6, 3 * Element::nodes> B;
+    for (int b = 0; b < Element::nodes; ++b)
+      B.template middleCols<3>(3 * b) = strainOfNode(G_[3 * b], G_[3 * b + 1], G_[3 * b + 2]);
+    if constexpr (averaged) B.row(5).setZero();
+    const Eigen::Matrix<double, 6, 3 * Element::nodes> DB = (weight_ * D_) * B;
+    K.noalias() += B.transpose() * DB;
   }
   [[nodiscard]] Column force(const Matrix& stress, int i) const {
     return own(weight_ * stress.col(i).head<6>());

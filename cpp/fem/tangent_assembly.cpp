@@ -201,12 +201,15 @@ void TangentAssembly::assemblePlain(const ElementData<dim>& elements, const std:
       const uint16_t* blocks = &blocks_[static_cast<size_t>(n) * n * t];
       int equation[n];
       for (int a = 0; a < n; ++a) equation[a] = equations[static_cast<size_t>(dim) * nodes[a]];
-      for (int i = points * t; i < points * (t + 1); ++i) {
-        const At at(elements, moduli, i);
-        for (int b = 0; b < n; ++b) {
-          if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
-          const auto columns = at.columns(b);
-          if constexpr (dim == 2) {  // written out: loops over the columns cost half of the time more
+      const auto forEachOwn = [&](const auto& visit) {
+        for (int b = 0; b < n; ++b)
+          if (equation[b] >= part.firstColumn && equation[b] < part.endColumn) visit(b);
+      };
+      if constexpr (dim == 2) {  // written out: loops over the columns cost half of the time more
+        for (int i = points * t; i < points * (t + 1); ++i) {
+          const At at(elements, moduli, i);
+          forEachOwn([&](int b) {
+            const auto columns = at.columns(b);
             double* columnX = first + start[equation[b]];
             double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
             for (int a = 0; a < n; ++a) {
@@ -219,22 +222,18 @@ void TangentAssembly::assemblePlain(const ElementData<dim>& elements, const std:
               else
                 Eigen::Map<Block>{columnY + block} += yy;
             }
-            continue;
-          }
-          double* to[dim];
-          for (int c = 0; c < dim; ++c) to[c] = first + start[equation[b] + c] - (symmetric ? c : 0);
-          for (int a = 0; a < n; ++a) {
-            if (symmetric && equation[a] < equation[b]) continue;
-            const int block = blocks[n * b + a];
-            for (int c = 0; c < dim; ++c) {
-              const Block rows = at.rows(columns[c], a);
-              if (c > 0 && symmetric && a == b)
-                for (int r = c; r < dim; ++r) to[c][block + r] += rows[r];
-              else
-                Eigen::Map<Block>{to[c] + block} += rows;
-            }
-          }
+          });
         }
+      } else {  // The sums over points come first: their rounding is that of an element.
+        Eigen::Matrix<double, dim * n, dim* n> K = Eigen::Matrix<double, dim * n, dim * n>::Zero();
+        for (int i = points * t; i < points * (t + 1); ++i) At(elements, moduli, i).addTo(K);
+        forEachOwn([&](int b) {
+          for (int a = 0; a < n; ++a)
+            for (int c = 0; c < dim && !(symmetric && equation[a] < equation[b]); ++c) {
+              double* to = first + start[equation[b] + c] - (symmetric ? c : 0) + blocks[n * b + a];
+              for (int r = symmetric && a == b ? c : 0; r < dim; ++r) to[r] += K(dim * a + r, dim * b + c);
+            }
+        });
       }
     }
   });
