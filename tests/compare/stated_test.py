@@ -140,7 +140,8 @@ class Theory(unittest.TestCase):
 
     def test_slip(self):
         steps, error, estimate = self.read("lifted, tolerance 0.1{_}: {} steps, ... off by {}, estimate {}")
-        self.states("measurements", "| pressed, sheared, lifted off | 0.1 | {} | rounding | {} |", steps, error)
+        self.states("measurements", "| pressed, sheared, lifted off | 0.1 | {} | rounding | {} |", steps,
+                    error)
         self.assertLess(float(estimate), 1e-12)
 
     def test_averaged_volume_in_space(self):
