@@ -137,11 +137,10 @@ Pivots contactPivots(const Model& model) {
                      }});
     const ContactDofs& dofs = system.contact();
     result.factorisation += secondsOf([&] { system.factorise(); });
-    system.condense(body.load(1));
-    slack -= dofs.C * system.joinCondensed();
+    slack -= dofs.C * system.condense(body.load(1));
     system.addCompliance(problem.W);
     normalMotions.emplace_back(dofs.C * dofs.R);
-    rigidForces.push_back(dofs.rigidForce(model, b, body.load(1)));
+    rigidForces.push_back(dofs.rigidForce(body.load(1)));
   }
   problem.G.resize(rows, normalMotions[0].cols() + normalMotions[1].cols());
   problem.G << normalMotions[0], normalMotions[1];
