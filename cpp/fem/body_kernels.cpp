@@ -33,17 +33,8 @@ Vector Body::internalForce(const Matrix& stress) const {
         const int* nodes = elements.nodes.of(static_cast<size_t>(i) / Element::points);
         const At at(elements, i);
         const auto force = at.force(stress, i);
-        Eigen::Vector<double, dim> sum = Eigen::Vector<double, dim>::Zero();
-        for (int a = 1; a < Element::nodes; ++a) {
-          const Eigen::Vector<double, dim> rows = at.rows(force, a);
-          f.segment<dim>(static_cast<Eigen::Index>(dim) * nodes[a]) += rows;
-          sum += rows;
-        }
-        // To the last digit what balances the others, but for the force around the axis.
-        if constexpr (At::balances)
-          f.segment<dim>(static_cast<Eigen::Index>(dim) * nodes[0]) -= sum;
-        else
-          f.segment<dim>(static_cast<Eigen::Index>(dim) * nodes[0]) += at.rows(force, 0);
+        for (int a = 0; a < Element::nodes; ++a)
+          f.segment<dim>(static_cast<Eigen::Index>(dim) * nodes[a]) += at.rows(force, a);
         if (elements.patches == nullptr) continue;
         const double* basis = elements.patches->basis(i);
         const int patch = elements.patches->patchOf()[i / Element::points];

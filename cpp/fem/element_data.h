@@ -69,7 +69,6 @@ template <class ElementOf, bool aboutAxis, bool averaged>
 class PlanePoint {
  public:
   using Element = ElementOf;
-  static constexpr bool balances = !aboutAxis;  ///< whether the forces of a stress on all nodes sum to zero
 
   struct Column {
     double sum;         ///< of the rows p and q of D B
@@ -157,7 +156,6 @@ template <class ElementOf, bool averaged>
 class SolidPoint {
  public:
   using Element = ElementOf;
-  static constexpr bool balances = true;
   using Column = Eigen::Matrix3d;  ///< tensorOfStress
 
   SolidPoint(const ElementData<3>& elements, int i)
