@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/quadrature_rules.h"
 #include "contact/end_rows.h"
 #include "contact/row_functions.h"
 #include "mesh/triangle_mesh.h"
@@ -27,22 +26,6 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
     for (int c = 0; c < 2; ++c)
       if (const double value = values[k] * direction[c]; value != 0)
         entries.emplace_back(row, 2 * nodes[k] + c, value);
-}
-
-/// Lobatto's rule of seven points on every segment: distances of circles are roots, no polynomials, and the
-/// least distance of straight sides is at the ends of pieces, however these are cut. Calls
-/// at(segment, rows, s, values of the row functions, weight).
-template <class At>
-void atLobattoPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
-  for (const Segment& segment : refinement.segments()) {
-    const EdgeNodes row = rows.at(segment.nonmortar);
-    if (row.maxCoeff() < 0) continue;
-    const double length = segment.end - segment.begin;
-    for (const auto& [place, weight] : lobattoSeven) {
-      const double s = place < 1 ? segment.begin + place * length : segment.end;
-      at(segment, row, s, rows.functions(segment.nonmortar, row, s), weight * length);
-    }
-  }
 }
 
 /// What the projections are made of.

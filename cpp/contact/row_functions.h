@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/quadrature_rules.h"
 #include "contact/coupling.h"
 
 namespace mortier {
@@ -31,5 +32,21 @@ class RowFunctions {
   std::vector<int> ofNode_;  ///< row of a trace node; -1: none
   std::vector<int> nodes_;
 };
+
+/// Lobatto's rule of seven points on every segment: distances of circles are roots, no polynomials, and the
+/// least distance of straight sides is at the ends of pieces, however these are cut. Calls
+/// at(segment, rows, s, values of the row functions, weight).
+template <class At>
+void atLobattoPoints(const CommonRefinement& refinement, const RowFunctions& rows, At at) {
+  for (const Segment& segment : refinement.segments()) {
+    const EdgeNodes row = rows.at(segment.nonmortar);
+    if (row.maxCoeff() < 0) continue;
+    const double length = segment.end - segment.begin;
+    for (const auto& [place, weight] : lobattoSeven) {
+      const double s = place < 1 ? segment.begin + place * length : segment.end;
+      at(segment, row, s, rows.functions(segment.nonmortar, row, s), weight * length);
+    }
+  }
+}
 
 }  // namespace mortier

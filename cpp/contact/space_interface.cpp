@@ -1,11 +1,6 @@
 // A contact interface between two surfaces: rows as in coupling.h, integrals over the common refinement of
-// their triangles.
-//
-// A nonmortar triangle faces the mortar surface along n ~ R1 n1 - R2 n2, n1, n2 the outward normals and R1,
-// R2 the radii of curvature of both surfaces, as in the plane (directions.h): a plane triangle along its
-// own normal, a curved one that faces a plane along the normal of the plane, on which alone the distance
-// depends. Each point of a rule adds a pair of opposite forces along the line through x1 and x2: rows
-// balance in force and moment.
+// their triangles (SurfaceRefinement). Each point of a rule adds a pair of opposite forces along the line
+// through x1 and x2: rows balance in force and moment.
 //
 // Row functions are the hat functions of the nonmortar vertices, whatever the degree: quadratic functions
 // have no mean on a triangle (int chi_vertex = 0), so that forces at vertices say nothing of the pressure. A
@@ -26,12 +21,6 @@
 
 namespace mortier {
 namespace {
-
-std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
-  if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
-  return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
-          4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
-}
 
 /// What makes distances of the rows between two surfaces of those given at nodes: a distance moves a
 /// nonmortar node along the normal of the row; where a row has means of motions it has the same of distances.
@@ -69,41 +58,18 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.dimension_ = 3;
   result.pair_ = pair;
 
-  const bool planeRules = mortar.planar && !nonmortar.planar;
-  const double reach = std::min(nonmortar.extent, mortar.extent);
   const TriangleTree tree(mortar);
-  std::vector<SpacePoint> directions = nonmortar.normals;
-  if (planeRules) std::fill(directions.begin(), directions.end(), SpacePoint(-mortar.normals.front()));
-  for (size_t t = 0; t < directions.size() && !planeRules; ++t) {
-    const auto& [a, b, c] = nonmortar.places[t];
-    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
-    const auto triangle = static_cast<int>(t);
-    if (const double curvature = nonmortar.curvatureAt(triangle, middle); curvature > 0)
-      directions[t] = tree.contactDirection((a + b + c) / 3, nonmortar.normals[t], curvature, reach, false);
-  }
-  std::vector<FacingTriangles> facing;
-  VertexTable vertices = verticesOf(nonmortar);
+  SurfaceRefinement refinement(nonmortar, mortar, tree);
+  const double reach = refinement.reach;
+  VertexTable& vertices = refinement.vertices;
   const auto keyOf = [&](int triangle, int k) {
     return PartVertex{nonmortar.triangles[triangle][k], nonmortar.parts[triangle]};
   };
-  forEachFacing(nonmortar, mortar, directions, reach, [&](const FacingTriangles& each) {
-    // A triangle that does not look at the plane faces nothing.
-    if (directions[each.nonmortar].dot(nonmortar.normals[each.nonmortar]) < 1e-3) return;
-    facing.push_back(each);
-    constexpr double rounding = 1e-9;
-    const std::array<Point, 3> corners{Point(0, 0), Point(1, 0), Point(0, 1)};
-    for (int k = 0; k < 3; ++k)
-      if (each.at(corners[k]).minCoeff() >= -rounding) vertices[keyOf(each.nonmortar, k)].faces = true;
-  });
 
   // Rows.
-  const auto contactNormal = [&](const VertexFacts& vertex) {
-    return planeRules ? SpacePoint(-mortar.normals.front())
-                      : tree.contactDirection(vertex.place, vertex.normal, vertex.curvature, reach, true);
-  };
   const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
   const auto held = [&](const PartVertex& key, const VertexFacts& vertex) {
-    return mayMerge && options.nonmortarHeld(key.first, contactNormal(vertex));
+    return mayMerge && options.nonmortarHeld(key.first, refinement.directionAt(vertex));
   };
   const bool allHeld = std::all_of(vertices.begin(), vertices.end(), [&](const auto& each) {
     return !each.second.faces || held(each.first, each.second);
@@ -121,7 +87,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   };
   for (auto& [key, vertex] : vertices) {
     if (!vertex.faces) continue;
-    const SpacePoint n = contactNormal(vertex);
+    const SpacePoint n = refinement.directionAt(vertex);
     const RayHit hit = tree.along(vertex.place, n, reach);
     if (pair.coupling == CouplingKind::interpolation && hit.triangle < 0) continue;
     if (!allHeld && held(key, vertex)) {
@@ -147,7 +113,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   }
   shareFunctions(vertices);
   const auto rows = static_cast<Eigen::Index>(result.nonmortarNodes_.size());
-  if (facing.empty()) throw InputError(names + " do not face each other");
+  if (refinement.facing.empty()) throw InputError(names + " do not face each other");
   if (rows == 0) refuseWithoutRows(names);
 
   const Eigen::Index columns1 = 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count());
@@ -164,9 +130,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       if (const double entry = value * n[c]; entry != 0)
         entries.emplace_back(static_cast<int>(row), 3 * node + c, entry);
   };
-  for (const FacingTriangles& each : facing) {
+  for (const FacingTriangles& each : refinement.facing) {
     const auto& x = nonmortar.places[each.nonmortar];
-    const SpacePoint& n = directions[each.nonmortar];
+    const SpacePoint& n = refinement.directions[each.nonmortar];
     const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
     const auto& x2 = mortar.places[each.mortar];
     const double mortarSize = std::sqrt((x2[1] - x2[0]).cross(x2[2] - x2[0]).norm());

@@ -288,4 +288,42 @@ void shareFunctions(VertexTable& vertices) {
   }
 }
 
+std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
+  if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
+  return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
+          4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
+}
+
+SurfaceRefinement::SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                                     const TriangleTree& tree)
+    : reach(std::min(nonmortar.extent, mortar.extent)),
+      directions(nonmortar.normals),
+      vertices(verticesOf(nonmortar)),
+      tree_(tree) {
+  if (mortar.planar && !nonmortar.planar) plane_ = -mortar.normals.front();
+  for (size_t t = 0; t < directions.size(); ++t) {
+    if (plane_) directions[t] = *plane_;
+    const auto& [a, b, c] = nonmortar.places[t];
+    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
+    const auto triangle = static_cast<int>(t);
+    if (const double curvature = plane_ ? 0 : nonmortar.curvatureAt(triangle, middle); curvature > 0)
+      directions[t] = tree.contactDirection((a + b + c) / 3, nonmortar.normals[t], curvature, reach, false);
+  }
+  forEachFacing(nonmortar, mortar, directions, reach, [&](const FacingTriangles& each) {
+    // A triangle that does not look at the plane faces nothing.
+    if (directions[each.nonmortar].dot(nonmortar.normals[each.nonmortar]) < 1e-3) return;
+    facing.push_back(each);
+    constexpr double rounding = 1e-9;
+    const std::array<Point, 3> corners{Point(0, 0), Point(1, 0), Point(0, 1)};
+    for (int k = 0; k < 3; ++k)
+      if (each.at(corners[k]).minCoeff() >= -rounding)
+        vertices[{nonmortar.triangles[each.nonmortar][k], nonmortar.parts[each.nonmortar]}].faces = true;
+  });
+}
+
+SpacePoint SurfaceRefinement::directionAt(const VertexFacts& vertex) const {
+  return plane_ ? *plane_
+                : tree_.contactDirection(vertex.place, vertex.normal, vertex.curvature, reach, true);
+}
+
 }  // namespace mortier

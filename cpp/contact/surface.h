@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <unsupported/Eigen/BVH>
 #include <utility>
@@ -154,5 +155,29 @@ VertexTable verticesOf(const ContactSurface& surface);
 
 /// Gives the hat functions without a row to neighbours that have one.
 void shareFunctions(VertexTable& vertices);
+
+/// Values of the shape functions of a surface of a degree at barycentric coordinates.
+std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b);
+
+/// The common refinement of two surfaces. A nonmortar triangle faces the mortar surface along n ~ R1 n1 -
+/// R2 n2, n1, n2 the outward normals and R1, R2 the radii of curvature of both surfaces, as in the plane
+/// (directions.h): a plane triangle along its own normal, a curved one that faces a plane along the normal of
+/// the plane, on which alone the distance depends.
+struct SurfaceRefinement {
+  /// The tree is that of the mortar surface; all must outlive it.
+  SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar, const TriangleTree& tree);
+
+  /// Along which a vertex of the nonmortar surface faces the other.
+  [[nodiscard]] SpacePoint directionAt(const VertexFacts& vertex) const;
+
+  double reach = 0;                    ///< [m]
+  std::vector<SpacePoint> directions;  ///< by nonmortar triangles
+  std::vector<FacingTriangles> facing;
+  VertexTable vertices;  ///< of the nonmortar surface
+
+ private:
+  const TriangleTree& tree_;
+  std::optional<SpacePoint> plane_;  ///< the direction of all, towards a plane
+};
 
 }  // namespace mortier

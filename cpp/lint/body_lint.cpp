@@ -15,8 +15,9 @@ bool isOf(const ContactDescription& c, const std::string& a, const std::string& 
 }
 
 bool inContact(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                     [&](const ContactDescription& c) { return isOf(c, a, b); });
+  bool any = false;
+  forEachPair(scene, [&](const ContactDescription& pair) { any = any || isOf(pair, a, b); });
+  return any;
 }
 
 /// By the number of boundary edges that a ray to the right crosses.

@@ -22,9 +22,10 @@ std::map<int, Use> usesOf(const SceneDescription& scene, size_t body) {
   std::map<int, Use> uses;
   for (const ConditionDescription& c : scene.bodies[body].conditions)
     if (!c.point) uses[c.label].condition = true;
-  for (const ContactDescription& contact : scene.contacts)
-    for (const SideDescription* side : {&contact.nonmortar(), &contact.mortar()})
-      if (side->body == scene.bodies[body].name) uses[side->label].contact = true;
+  forEachPair(scene, [&](const ContactDescription& contact) {
+    for (const SideDescription& side : contact.sides)
+      if (side.body == scene.bodies[body].name) uses[side.label].contact = true;
+  });
   return uses;
 }
 
@@ -74,9 +75,10 @@ void findMissing(const LintInput& input, size_t b, const Topology& topology, Fau
   };
   for (const ConditionDescription& c : input.scene.bodies[b].conditions)
     if (!c.point) require(c.label, c.labelName, c.where);
-  for (const ContactDescription& contact : input.scene.contacts)
-    for (const SideDescription* side : {&contact.nonmortar(), &contact.mortar()})
-      if (side->body == input.scene.bodies[b].name) require(side->label, side->labelName, side->where);
+  forEachPair(input.scene, [&](const ContactDescription& contact) {
+    for (const SideDescription& side : contact.sides)
+      if (side.body == input.scene.bodies[b].name) require(side.label, side.labelName, side.where);
+  });
 }
 
 void findMissingPoints(const LintInput& input, size_t b, Faults& faults) {

@@ -261,7 +261,7 @@ bool leavesUnknown(const ContactDoubt& doubt, const Quantity& quantity, bool ofP
   if (quantity.kind == Kind::largestMises)
     return doubt.unknown == Unknown::force &&
            (quantity.body == nonmortar.body || quantity.body == mortar.body);
-  if (!isSide(interface, quantity.body, quantity.label)) return false;
+  if (!isSide(interface.pair(), quantity.body, quantity.label)) return false;
   switch (quantity.kind) {
     case Kind::largestPressure:
       return doubt.unknown != Unknown::nothing;

@@ -140,6 +140,14 @@ class Planner {
   }
 
   void planContact() {
+    for (size_t k = 0; k < model_.ties.size(); ++k)
+      add("tie " + std::to_string(k), true,
+          "tie by " + word(scene_.ties[k].variant) + " at " +
+              counted(model_.ties[k].nonmortarNodes().size(), "node") + " of " +
+              model_.bodies[model_.ties[k].pair().nonmortar.body].name(),
+          "its sides move as one" + std::string(scene_.ties[k].choice.empty() ? "" : "; ") +
+              scene_.ties[k].choice);
+    if (model_.interfaces.empty() && !model_.ties.empty()) return;
     if (model_.interfaces.empty()) {
       add("contact", false, "contact: bodies are solved separately",
           model_.bodies.size() == 1 ? "there is one body" : "the scene has none");

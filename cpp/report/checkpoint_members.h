@@ -36,7 +36,7 @@ MORTIER_MEMBERS(AccuracyMemory, energy, error, time)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, frictionWorkOf,
-                gapWork)
+                gapWork, tieForce)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)

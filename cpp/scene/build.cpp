@@ -24,6 +24,24 @@ std::vector<double> sampleTimes(const TimePlan& plan) {
   return {0, step, 0.5 * plan.end, plan.end - step, plan.end};
 }
 
+/// Adds an interface or a tie. \throws InputError headed by the place of the contact.
+template <class Add>
+void addAt(const ContactDescription& contact, const Add& add) {
+  const std::string where = contact.where + ": contact: ";
+  try {
+    add();
+  } catch (const InputError& error) {
+    throw InputError(where + error.what(), error.fault());
+  }
+}
+
+ContactPair pairOf(const SceneDescription& scene, const ContactDescription& contact) {
+  const auto side = [&](const SideDescription& of) {
+    return ContactSide{bodyIndex(scene, of.body), of.label};
+  };
+  return {side(contact.nonmortar()), side(contact.mortar()), contact.variant};
+}
+
 }  // namespace
 
 Model buildModel(ResolvedScene& scene) {
@@ -44,6 +62,13 @@ Model buildModel(ResolvedScene& scene) {
   for (const ContactDescription& contact : description.contacts) {
     stopIfInterrupted();
     addContact(description, contact, model);
+  }
+  for (const ContactDescription& tie : description.ties) {
+    stopIfInterrupted();
+    addAt(tie, [&] {
+      addTie(model, pairOf(description, tie));
+      requireMemory(memoryNeed(model, description.solver), false);
+    });
   }
   if (solvesSparse(model, description.solver))  // of such long lines with C alone
     for (ContactInterface& interface : model.interfaces) interface.stopYielding();
@@ -73,8 +98,12 @@ namespace {
 bool isInContact(const Model& model, int body, int label, bool rough) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
                      [&](const ContactInterface& interface) {
-                       return isSide(interface, body, label) && (interface.hasFriction() || !rough);
+                       return isSide(interface.pair(), body, label) && (interface.hasFriction() || !rough);
                      });
+}
+
+bool isTied(const Model& model, int body, int label) {
+  return std::ranges::any_of(model.ties, [&](const Tie& tie) { return isSide(tie.pair(), body, label); });
 }
 
 }  // namespace
@@ -107,7 +136,9 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
                              quantity.kind == Kind::contactLength || quantity.kind == Kind::contactArea ||
                              quantity.kind == Kind::meanPressure;
-    if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
+    const bool ofTie =
+        quantity.kind == Quantity::Kind::contactForce && isTied(model, quantity.body, quantity.label);
+    if (isOfContact && !ofTie && !isInContact(model, quantity.body, quantity.label, false))
       refuse(label + " is no side of a contact, expected one");
     if (quantity.kind == Quantity::Kind::frictionWork &&
         !isInContact(model, quantity.body, quantity.label, true))
@@ -149,29 +180,8 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
          digits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
 }
 
-namespace {
-
-/// Adds the interface. \throws InputError headed by the place of the contact.
-template <class Add>
-void addAt(const ContactDescription& contact, const Add& add) {
-  const std::string where = contact.where + ": contact: ";
-  try {
-    add();
-  } catch (const InputError& error) {
-    throw InputError(where + error.what(), error.fault());
-  }
-}
-
-}  // namespace
-
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {
-  ContactPair pair;
-  pair.coupling = contact.variant;
-  for (const auto& [side, target] :
-       {std::pair(&contact.nonmortar(), &pair.nonmortar), std::pair(&contact.mortar(), &pair.mortar)}) {
-    target->body = bodyIndex(scene, side->body);
-    target->label = side->label;
-  }
+  const ContactPair pair = pairOf(scene, contact);
   InterfaceOptions options;
   options.initial = contact.initial;
   if (scene.inSpace()) {

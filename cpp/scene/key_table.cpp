@@ -163,8 +163,10 @@ ux, uy | m | 0 | datum in t | prescribed displacement
 rotation | rad | 0 | datum in t | prescribed rotation about `at`, counterclockwise, linear
 fx, fy | N/m | | datum in t | in place of `ux`, `uy`: force on the tool, which is free in this direction
 moment | N | | datum in t | in place of `rotation`: moment about `at`; the tool turns freely
-[contact] `[contact]` or `[[contact]]` | | none | any number | unilateral contact of two bodies, without
-  friction unless it is given
+[contact] `[contact]` or `[[contact]]` | | none | any number | contact of two bodies, without friction
+  unless it is given
+kind | | `"unilateral"` | `"unilateral"`, `"tied"` | the sides may part, or move as one
+  ([below](#ties))
 nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the contact pressure and its conditions
 mortar | | | `{ body = "name", label = 3 }` | the other side
 sides | | | `[{ body = "a", label = 1 }, { body = "b", label = 3 }]` | the two sides in any order, in place of

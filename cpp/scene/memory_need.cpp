@@ -93,6 +93,7 @@ MemoryNeed needInSpace(const Model& model, const SolverOptions& options) {
              ofAnEquation * body.dofs();
   }
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
+  for (const Tie& tie : model.ties) conditions += tie.rows();
   const double dense = 4 * sizeof(double) * conditions * conditions;
   return {bytes + dense, dense};
 }
@@ -108,6 +109,10 @@ MemoryNeed memoryNeed(const Model& model, const SolverOptions& options) {
   for (const ContactInterface& interface : model.interfaces) {
     pairs.push_back(interface.pair());
     rough.push_back(interface.hasFriction());
+  }
+  for (const Tie& tie : model.ties) {
+    pairs.push_back(tie.pair());
+    rough.push_back(true);
   }
   return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough, options);
 }

@@ -90,6 +90,17 @@ void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
   refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
 }
 
+/// \throws InputError  where a tie stands together with what does not know it
+void refuseBesideTies(const TableReader& table, const SceneDescription& scene) {
+  table.rejectIfGiven({"stabilised", "initial", "gap", "friction", "shear_limit", "sliding"},
+                      "none beside kind = \"tied\": the sides move as one, as far apart as they are drawn");
+  const auto refuse = [&](bool found, const std::string& what) {
+    if (found) table.reject("kind", "unilateral: " + what + " does not support ties, remove one of them");
+  };
+  refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
+  refuse(scene.accuracy.bound, "accuracy.bound");
+}
+
 /// Conditions are stabilised where the scene leaves the choice of rows to the program.
 void readStabilised(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
   const bool other = contact.variant == CouplingKind::interpolation || scene.accuracy.bound;
@@ -107,7 +118,10 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   const TableReader table(node, "contact", "contact");
   ContactDescription contact;
   contact.where = node.where;
+  enum class Kind { unilateral, tied };
+  contact.tied = table.choice<Kind>("kind") == Kind::tied;
   readSides(table, scene, contact);
+  if (contact.tied) refuseBesideTies(table, scene);
   const auto variant = scene.degree == 1 && !scene.inSpace() ? CouplingKind::mortar : CouplingKind::weighted;
   contact.variant = table.choice<CouplingKind>("variant", variant);
   readStabilised(table, scene, contact);
@@ -124,7 +138,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
     throw InputError(table.message(contact.mortar().where,
                                    "both sides are body " + contact.mortar().body + ", expected two bodies"),
                      "same-body");
-  for (const ContactDescription& other : scene.contacts) {
+  for (const ContactDescription& other : contact.tied ? scene.ties : scene.contacts) {
     if (other.nonmortar().body == contact.nonmortar().body &&
         other.nonmortar().label == contact.nonmortar().label &&
         other.nonmortar().labelName == contact.nonmortar().labelName && contact.nonmortarSide &&

@@ -100,9 +100,10 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
         boundary(b, c.label, c.labelName, c.where);
     for (RegionDescription& r : scene.bodies[b].regions) region(b, r.label, r.labelName, r.where);
   }
-  for (ContactDescription& contact : scene.contacts)
+  forEachPair(scene, [&](ContactDescription& contact) {
     for (SideDescription& side : contact.sides)
       boundary(bodyIndex(scene, side.body), side.label, side.labelName, side.where);
+  });
   for (QuantityDescription& q : scene.quantities)
     if (q.whole)
       continue;

@@ -159,8 +159,9 @@ void readTools(const TableReader& root, SceneDescription& scene) {
 void requireToolsTouch(const SceneDescription& scene) {
   for (const BodyDescription& tool : scene.bodies) {
     std::vector<const ContactDescription*> contacts;
-    for (const ContactDescription& contact : scene.contacts)
+    forEachPair(scene, [&](const ContactDescription& contact) {
       if (contact.mortar().body == tool.name) contacts.push_back(&contact);
+    });
     const std::string subject = tool.where + ": tool " + tool.name + ": ";
     if (tool.isTool() && contacts.empty())
       throw InputError(subject + "in no contact, expected one with a body");
@@ -171,6 +172,19 @@ void requireToolsTouch(const SceneDescription& scene) {
                        "it turns, and only some of its contacts have sliding = \"finite\", expected "
                        "all or none: rotations are finite or linear");
   }
+}
+
+/// \throws InputError where the estimate of the energy does not know the rows of a contact.
+void requireEstimated(const ContactDescription& contact, int degree) {
+  if (degree == 2 && contact.variant == CouplingKind::mortar)
+    throw InputError(
+        contact.where +
+        ": contact: variant = \"mortar\", expected weighted beside accuracy and degree = 2: with no "
+        "other does the estimate know the contact line");
+  if (contact.variant == CouplingKind::interpolation)
+    throw InputError(contact.where + ": contact: variant = \"interpolation\", expected " +
+                     (degree == 2 ? "weighted" : "mortar") +
+                     " beside accuracy: the estimate does not see the false stresses of interpolation");
 }
 
 void markInSpace(Node& node) {
@@ -215,17 +229,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   readTools(root, scene);
   for (const Node* contact : root.tables("contact")) {
-    scene.contacts.push_back(readContact(*contact, scene));
-    if (scene.accuracy.energy > 0 && scene.degree == 2 &&
-        scene.contacts.back().variant == CouplingKind::mortar)
-      throw InputError(
-          scene.contacts.back().where +
-          ": contact: variant = \"mortar\", expected weighted beside accuracy and degree = 2: with no "
-          "other does the estimate know the contact line");
-    if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation)
-      throw InputError(scene.contacts.back().where + ": contact: variant = \"interpolation\", expected " +
-                       (scene.degree == 2 ? "weighted" : "mortar") +
-                       " beside accuracy: the estimate does not see the false stresses of interpolation");
+    ContactDescription read = readContact(*contact, scene);
+    if (scene.accuracy.energy > 0) requireEstimated(read, scene.degree);
+    (read.tied ? scene.ties : scene.contacts).push_back(std::move(read));
   }
   for (const Node* quantity : root.tables("quantity"))
     scene.quantities.push_back(readQuantity(*quantity, scene));

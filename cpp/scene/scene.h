@@ -146,6 +146,7 @@ enum class SlidingKind {
 };
 
 struct ContactDescription {
+  bool tied = false;                     ///< whether the sides move as one
   std::array<SideDescription, 2> sides;  ///< as the scene names them
   /// Which of them is nonmortar; empty, then the first, until the meshes decide it (scene/resolve.h).
   std::optional<int> nonmortarSide;
@@ -209,6 +210,7 @@ struct SceneDescription {
   int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;
   std::vector<ContactDescription> contacts;
+  std::vector<ContactDescription> ties;
   std::vector<QuantityDescription> quantities;
   TimePlan time;
   SolverOptions solver;
@@ -223,6 +225,13 @@ struct SceneDescription {
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.
 /// \throws InputError with one line `file:line: subject: key = value, expected ...`.
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
+
+/// Calls visit with every contact and every tie.
+template <class Scene, class Visit>
+void forEachPair(Scene& scene, const Visit& visit) {
+  for (auto* pairs : {&scene.contacts, &scene.ties})
+    for (auto& pair : *pairs) visit(pair);
+}
 
 /// Words of the scene for what a scene can choose.
 std::string word(Plane plane);

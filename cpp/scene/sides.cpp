@@ -141,16 +141,16 @@ void decideSide(ContactDescription& contact, double edge1, double edge2, double 
 }  // namespace
 
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
-  for (ContactDescription& contact : scene.contacts) {
-    if (contact.nonmortarSide) continue;
+  forEachPair(scene, [&](ContactDescription& contact) {
+    if (contact.nonmortarSide) return;
     const auto& [side1, side2] = contact.sides;
     const auto edge1 = meanEdge(scene, side1, meshes);
     const auto edge2 = meanEdge(scene, side2, meshes);
-    if (!edge1 || !edge2) continue;
+    if (!edge1 || !edge2) return;
     decideSide(
         contact, *edge1, *edge2,
         contact.variant == CouplingKind::interpolation ? 1 : stiffnessRatio(scene, side1, side2, meshes));
-  }
+  });
 }
 
 void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& meshes) {
@@ -163,11 +163,11 @@ void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& me
         length += (mesh.vertices[to] - mesh.vertices[from]).norm();
     return length / (3 * static_cast<double>(triangles.size()));
   };
-  for (ContactDescription& contact : scene.contacts) {
-    if (contact.nonmortarSide) continue;
+  forEachPair(scene, [&](ContactDescription& contact) {
+    if (contact.nonmortarSide) return;
     const auto& [side1, side2] = contact.sides;
     decideSide(contact, edgeOf(side1), edgeOf(side2), young(scene, side1) / young(scene, side2));
-  }
+  });
 }
 
 std::optional<int> axisOf(int component, const Point& from, const Point& to) {

@@ -55,7 +55,7 @@ void requireKnownInSpace(const TableReader& root, const SceneDescription& scene)
     TableReader(*solver, "solver", "solver")
         .reject("list_solutions", std::string("false") + inThePlane + ", of friction");
   for (const BodyDescription& body : scene.bodies) requireKnown(body, scene.degree);
-  for (const ContactDescription& contact : scene.contacts) requireKnown(contact, scene.degree);
+  forEachPair(scene, [&](const ContactDescription& contact) { requireKnown(contact, scene.degree); });
   for (const QuantityDescription& quantity : scene.quantities) requireKnown(quantity);
 }
 

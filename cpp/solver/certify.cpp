@@ -93,6 +93,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     rounding.add(of.rounded);
   }
   subtractContact(iterate.contactForce, iterate.frictionForce, residual);
+  subtractTies(iterate.tieForce, residual);
   Worst beyondBound;
   Worst wrongSlip;
   const std::vector<Vector> slip = slips(model_, iterate);
@@ -136,6 +137,10 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
         openPenetration.add(g[i] / length.value());
       if (contactForce.value() != 0) complementarity.add(p[i] / contactForce.value() * off);
     }
+  }
+  for (const Tie& tie : model_.ties) {
+    const Vector jump = tie.jump(u[tie.pair().nonmortar.body], u[tie.pair().mortar.body]);
+    gapOnActive.add(jump.lpNorm<Eigen::Infinity>() / length.value());
   }
   Worst own;
   for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));

@@ -22,7 +22,8 @@ namespace mortier {
 
 struct ContactDofs {
   /// \param firstRow  of each interface among the conditions across contact, and their number at the end.
-  /// Those along the line come after all of them, for each interface with friction as many.
+  /// Those along the line come after all of them, for each interface with friction as many, then the rows of
+  /// ties.
   /// \throws UnheldBodyError where a motion does not move the contact dofs.
   ContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
 
@@ -30,7 +31,7 @@ struct ContactDofs {
   void updateConstraints(const Model& model, int body, const std::vector<int>& firstRow);
 
   std::vector<int> equations;     ///< of the contact dofs; all of a line that may touch anywhere
-  Eigen::SparseMatrix<double> C;  ///< contact conditions x contact dofs
+  Eigen::SparseMatrix<double> C;  ///< contact conditions and ties x contact dofs
   Matrix motions;                 ///< rigid motions, by dofs
   Matrix R;                       ///< the same on the contact dofs, orthonormal there
 

@@ -18,8 +18,8 @@ constexpr double motionTolerance = 1e-14;
 constexpr double negligibleShare = 1e-14;
 
 /// Entries of the rows of an interface on one body as (row, node, vector).
-template <class Visit>
-void forEachEntry(const ContactInterface& interface, int body, const ConstraintRows& nonmortar,
+template <class Interface, class Visit>
+void forEachEntry(const Interface& interface, int body, const ConstraintRows& nonmortar,
                   const ConstraintRows& mortar, Visit visit) {
   const int dimension = interface.dimension();
   const auto visitAll = [&](const ConstraintRows& C) {
@@ -66,6 +66,10 @@ void forEachEquation(const Model& model, int body, const std::vector<int>& first
     forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
     rows += interface.rows();
   }
+  for (const Tie& tie : model.ties) {
+    forEachEntry(tie, body, tie.C1(), tie.C2(), visitParts(rows));
+    rows += tie.rows();
+  }
 }
 
 }  // namespace
@@ -101,6 +105,7 @@ void ContactDofs::updateConstraints(const Model& model, int body, const std::vec
   int conditions = firstRow.back();
   for (const ContactInterface& interface : model.interfaces)
     conditions += interface.hasFriction() ? interface.rows() : 0;
+  for (const Tie& tie : model.ties) conditions += tie.rows();
   Triplets entries;
   forEachEquation(model, body, firstRow, [&](int row, int equation, double value) {
     entries.emplace_back(row, column_[equation], value);

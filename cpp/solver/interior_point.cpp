@@ -123,6 +123,8 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
         iterate.contactForce[k] += length * (next.contactForce[k] - iterate.contactForce[k]);
       for (size_t k = 0; k < iterate.frictionForce.size(); ++k)
         iterate.frictionForce[k] += length * (next.frictionForce[k] - iterate.frictionForce[k]);
+      for (size_t k = 0; k < iterate.tieForce.size(); ++k)
+        iterate.tieForce[k] += length * (next.tieForce[k] - iterate.tieForce[k]);
       iterate.active = next.active;
       iterate.slipping = next.slipping;
     }

@@ -26,6 +26,7 @@ Iterate startingIterate(const State& state0) {
   iterate.active = startingSets(state0);
   iterate.frictionForce = state0.frictionForce;
   iterate.slipping = state0.slipping;
+  iterate.tieForce = state0.tieForce;
   return iterate;
 }
 
@@ -110,6 +111,16 @@ double gapWork(const State& state0, const Iterate& solution) {
   for (size_t k = 0; k < solution.distanceChange.size(); ++k)
     work -= (state0.contactForce[k] + solution.contactForce[k]).dot(solution.distanceChange[k]) / 2;
   return work;
+}
+
+std::vector<Vector> jumps(const Model& model, const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (const Tie& tie : model.ties) {
+    const TwoPartVector& u1 = iterate.bodies[tie.pair().nonmortar.body].increment;
+    const TwoPartVector& u2 = iterate.bodies[tie.pair().mortar.body].increment;
+    result.emplace_back(tie.jump(u1.high, u2.high) + tie.jump(u1.low, u2.low));
+  }
+  return result;
 }
 
 std::vector<Vector> slips(const Model& model, const Iterate& iterate) {

@@ -63,6 +63,7 @@ struct Iterate {
   std::vector<Vector> distanceChange = {};
   double largestTension =
       0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
+  std::vector<Vector> tieForce = {};  ///< per tie [N/m]
 };
 
 /// The sets with which a step from `state0` begins: where there was a force, or everywhere if there was none.
@@ -96,6 +97,9 @@ std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& ga
 /// What distances that change do on the bodies in a step: less the means of the forces times the changes
 /// [J/m].
 double gapWork(const State& state0, const Iterate& solution);
+
+/// C du per tie [m].
+std::vector<Vector> jumps(const Model& model, const Iterate& iterate);
 
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);

@@ -18,11 +18,15 @@ constexpr double negligibleMotion = 1e-6;
 }  // namespace
 
 void StepSystem::joinMotions() {
-  contact_.G = Matrix::Zero(conditions(), firstMotion_.back());
+  Eigen::Index ties = 0;
+  for (const Tie& tie : model_.ties) ties += tie.rows();
+  Matrix G = Matrix::Zero(conditions() + ties, firstMotion_.back());
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const ContactDofs& dofs = bodies_[b].contact();
-    contact_.G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;
+    G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;
   }
+  ties_.setMotions(std::move(G), ties);
+  contact_.G = ties_.contactMotions();
 }
 
 void StepSystem::requireHeld() {
@@ -31,7 +35,8 @@ void StepSystem::requireHeld() {
   if (contact_.G.cols() == 0) return;
   const Matrix free = rigidMotionsOn(std::vector<char>(conditions(), 1), contact_.G).free;
   if (free.cols() > 0)
-    throw UnheldBodyError("nothing holds " + describeRigid(free.col(0)) + "; a support or a contact would");
+    throw UnheldBodyError("nothing holds " + describeRigid(ties_.wholeMotion(free.col(0))) +
+                          "; a support or a contact would");
 }
 
 std::string StepSystem::looseMotion(const State& state0, const Iterate& solution) const {
@@ -53,8 +58,9 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   const Matrix loose = rigidMotionsOn(closed, contact_.G).free;
   Eigen::Index which = 0;
   const auto turns = [&](const Vector& z) {
+    const Vector all = ties_.wholeMotion(z);
     for (size_t b = 0; b < bodies_.size(); ++b)
-      if (const Vector part = motionOf(z, b); part.norm() > negligibleMotion)
+      if (const Vector part = motionOf(all, b); part.norm() > negligibleMotion)
         if (!turnsInItself(model_, static_cast<int>(b), bodies_[b].contact().motions * part)) return false;
     return true;
   };
@@ -72,9 +78,10 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   }
   if (std::min(onwards, back) > negligibleMotion * std::max(onwards, back)) return "";
   bool untouched = true;
+  const Vector all = ties_.wholeMotion(z);
   for (size_t b = 0; b < bodies_.size(); ++b)
-    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || !!u[b].isZero(0));
-  return untouched ? "" : describeRigid(z);
+    untouched = untouched && (motionOf(all, b).norm() <= negligibleMotion || !!u[b].isZero(0));
+  return untouched ? "" : describeRigid(all);
 }
 
 int StepSystem::slipOf(const Iterate& solution, int row) const {

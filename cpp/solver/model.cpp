@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "linear/distributed_engine.h"
@@ -70,9 +71,10 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  const bool dense = anyFriction(model) || std::ranges::any_of(model.bodies, [](const Body& body) {
-                       return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
-                     });
+  const bool dense =
+      anyFriction(model) || !model.ties.empty() || std::ranges::any_of(model.bodies, [](const Body& body) {
+        return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
+      });
   return !anyFollows(model) && solvesSparse(conditions, equations, dense, options);
 }
 
@@ -81,18 +83,36 @@ bool solvesSparse(double conditions, double equations, bool rough, const SolverO
          conditions * conditions * conditions > options.denseWork * equations;
 }
 
-void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
-  const Body& nonmortar = model.bodies[pair.nonmortar.body];
-  const Body& mortar = model.bodies[pair.mortar.body];
-  if (nonmortar.dimension() != mortar.dimension())
-    throw InputError("bodies " + nonmortar.name() + " and " + mortar.name() +
+namespace {
+
+struct BodiesOfPair {
+  const Body& nonmortar;
+  const Body& mortar;
+};
+
+BodiesOfPair bodiesOf(const Model& model, const ContactPair& pair) {
+  const BodiesOfPair both{model.bodies[pair.nonmortar.body], model.bodies[pair.mortar.body]};
+  if (both.nonmortar.dimension() != both.mortar.dimension())
+    throw InputError("bodies " + both.nonmortar.name() + " and " + both.mortar.name() +
                      ": contact between the plane and space, expected two bodies of one of them");
+  return both;
+}
+
+ContactMesh meshOf(const Body& body) {
+  return {body.mesh(), body.elementNodes()};
+}
+
+SpaceContactMesh spaceMeshOf(const Body& body) {
+  return {body.space()->mesh(), body.space()->nodes()};
+}
+
+}  // namespace
+
+void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
+  const auto& [nonmortar, mortar] = bodiesOf(model, pair);
   if (nonmortar.space() != nullptr) {
-    const auto meshOf = [](const Body& body) {
-      return SpaceContactMesh{body.space()->mesh(), body.space()->nodes()};
-    };
     model.interfaces.push_back(ContactInterface::inSpace(
-        pair, meshOf(nonmortar), meshOf(mortar),
+        pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar),
         {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
          [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
          options.gapMoves, options.mortarCompliance, options.stabilised}));
@@ -100,8 +120,28 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
   }
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };
   options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, {n.x(), n.y(), 0}); };
-  model.interfaces.emplace_back(pair, ContactMesh{nonmortar.mesh(), nonmortar.elementNodes()},
-                                ContactMesh{mortar.mesh(), mortar.elementNodes()}, options);
+  model.interfaces.emplace_back(pair, meshOf(nonmortar), meshOf(mortar), options);
+}
+
+void addTie(Model& model, const ContactPair& pair) {
+  const auto& [nonmortar, mortar] = bodiesOf(model, pair);
+  std::set<int> taken;
+  for (const Tie& other : model.ties)
+    if (other.pair().nonmortar.body == pair.nonmortar.body)
+      taken.insert(other.nonmortarNodes().begin(), other.nonmortarNodes().end());
+  TieOptions options;
+  options.nonmortarHeld = [&](int node, const SpacePoint& d) { return holds(nonmortar, node, d); };
+  options.mortarHeld = [&](int node, const SpacePoint& d) { return holds(mortar, node, d); };
+  options.taken = [&](int node) { return taken.contains(node); };
+  options.frame = [&](int node) {
+    const Eigen::Matrix3d* turned = nonmortar.supports().frameOf(node);
+    return turned == nullptr ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : *turned;
+  };
+  options.axisymmetric = nonmortar.axisymmetric();
+  if (nonmortar.space() != nullptr)
+    model.ties.emplace_back(pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar), options);
+  else
+    model.ties.emplace_back(pair, meshOf(nonmortar), meshOf(mortar), options);
 }
 
 }  // namespace mortier

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/interface.h"
+#include "contact/tie.h"
 #include "fem/body.h"
 #include "linear/condensing_solver.h"
 
@@ -14,6 +14,7 @@ struct Model {
   std::vector<Body> bodies;
   /// Those that follow the bodies change as the bodies move (StepTaker), which is no change of the model.
   mutable std::vector<ContactInterface> interfaces;
+  std::vector<Tie> ties;
 };
 
 /// Whether any interface has friction.
@@ -31,6 +32,8 @@ bool holds(const Body& body, int node, const SpacePoint& direction);
 /// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
 /// \throws InputError
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options = {});
+/// Adds a tie. \throws InputError
+void addTie(Model& model, const ContactPair& pair);
 
 enum class LinearEngine {
   multifrontal,  ///< our own, SuiteSparse where it fails

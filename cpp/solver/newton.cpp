@@ -116,6 +116,8 @@ StepSystem::Linearised searchLine(StepSystem& system, const Step& step, double w
     for (size_t k = 0; k < end.contactForce.size(); ++k)
       iterate.contactForce[k] =
           before.contactForce[k] + length * (end.contactForce[k] - before.contactForce[k]);
+    for (size_t k = 0; k < end.tieForce.size(); ++k)
+      iterate.tieForce[k] = before.tieForce[k] + length * (end.tieForce[k] - before.tieForce[k]);
     linearised = system.linearise(step, iterate, weight, true);
   }
   return linearised;

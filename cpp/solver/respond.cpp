@@ -21,17 +21,17 @@ std::vector<Response> StepSystem::Factorised::respond(const LinearLoad& to, cons
     const Vector load = to.force.empty() ? Vector(Vector::Zero(model.bodies[b].dofs())) : to.force[b];
     force[b] = load - model.bodies[b].internalForce(stress);
   });
-  Vector slack = Vector::Zero(system_->conditions());
+  Vector slack = Vector::Zero(system_->constraints());
   const Vector across = joined(to.across);
   const Vector along = joined(to.slip);
   slack.head(across.size()) += across;
-  slack.tail(along.size()) += along;
+  slack.segment(system_->conditions() - along.size(), along.size()) += along;
   ContactSolution contact;
   if (system_->sparse()) {
     contact = system_->holdClosedSparse(force, slack, on);
   } else {
     const std::vector<Vector> motion = system_->condenseBodies(force);
-    Vector balance = Vector::Zero(system_->contact_.G.cols());
+    Vector balance = Vector::Zero(system_->firstMotion_.back());
     for (size_t b = 0; b < bodies.size(); ++b) {
       const ContactDofs& dofs = bodies[b].contact();
       if (dofs.none()) continue;
@@ -39,7 +39,8 @@ std::vector<Response> StepSystem::Factorised::respond(const LinearLoad& to, cons
       if (!to.force.empty())
         balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(to.force[b]);
     }
-    contact = ClosedContact(system_->contact_, joinedSets(on), to.adjoint).solve(slack, balance);
+    contact = system_->holdClosed(ClosedContact(system_->contact_, joinedSets(on), to.adjoint),
+                                  {std::move(slack), std::move(balance)});
   }
   system_->expandBodies(contact, [&](int b, const Vector& displacement) {
     responses[b].displacement = displacement;
@@ -89,6 +90,7 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     forceAlong[b] = stressAlong(motion, b);
   });
   system_->subtractContact(iterate.contactForce, iterate.frictionForce, residual);
+  system_->subtractTies(iterate.tieForce, residual);
   const double enough = part * part * dot(motion, forceAlong);  // of the energy of the solve
   const double noise = rounding * *std::max_element(forces.begin(), forces.end());
   double last = 0;
@@ -96,11 +98,12 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     double largest = 0;
     for (size_t b = 0; b < count; ++b)
       largest = std::max(largest, model.bodies[b].gather(residual[b]).lpNorm<Eigen::Infinity>());
-    Vector slack = Vector::Zero(system_->conditions());
+    Vector slack = Vector::Zero(system_->constraints());
     const std::vector<Vector> condensed = system_->condenseBodies(residual);
     for (size_t b = 0; b < count; ++b)
       if (const ContactDofs& dofs = bodies[b].contact(); !dofs.none()) slack -= dofs.C * condensed[b];
-    const ContactSolution closed = contact.solve(slack, Vector::Zero(system_->contact_.G.cols()));
+    const ContactSolution closed =
+        system_->holdClosed(contact, {std::move(slack), Vector::Zero(system_->firstMotion_.back())});
     system_->expandBodies(closed, [&](int b, const Vector& d) { motion[b] = d; });
     std::vector<Vector> change = system_->parted(closed.change);
     const auto move = [&](const std::vector<Vector>& by) {
@@ -108,6 +111,9 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
       for (size_t k = 0; k < by.size(); ++k) iterate.contactForce[k] += by[k];
     };
     if (!yields) move(change);
+    const std::vector<Vector> tieChange = system_->tiesOf(closed.change);
+    system_->subtractTies(tieChange, residual);
+    for (size_t k = 0; k < tieChange.size(); ++k) iterate.tieForce[k] += tieChange[k];
     const double size = dot(motion, residual);
     if (!(size > enough) || largest <= noise) return size <= enough || largest <= noise;
     if (iteration == most) return false;
@@ -134,6 +140,12 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
   }
 }
 
+ContactSolution StepSystem::holdClosed(const ClosedContact& closed,
+                                       const TieElimination::Whole& whole) const {
+  const auto [slack, balance] = ties_.reduced(whole);
+  return ties_.completed(closed.solve(slack, balance), whole);
+}
+
 std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, const Iterate& on,
                                           const std::vector<Vector>& slip) {
   std::vector<Response> responses(bodies_.size());
@@ -150,7 +162,7 @@ StepSystem::Factorised StepSystem::currentFactors() {
   const Linearised last(*this, 0, Key{});
   StepOutcome again;
   // Rows that follow the bodies have been taken anew since the last linear solve.
-  const bool otherRows = !sparse() && contact_.W.rows() != conditions();
+  const bool otherRows = !sparse() && !ties_.taken();
   if (otherRows || olderFactors_ || std::ranges::any_of(bodies_, &CondensedBody::stale))
     static_cast<void>(last.factorise(again));
   return last.keepFactors();

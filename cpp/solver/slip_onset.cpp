@@ -75,7 +75,7 @@ std::vector<Vector> StepSystem::frictionAtSlip(const State& state0, const std::v
     if (setsAfter.slip[k] != 0 && acts(k) && lacks(now, k) > 0) sticking.push_back(k);
   }
   if (sticking.empty()) return atSlip;
-  if (contact_.W.rows() != conditions()) static_cast<void>(currentFactors());
+  if (!ties_.taken()) static_cast<void>(currentFactors());
 
   std::vector<Vector> across = solvedGaps(model_, gap0, end);
   for (size_t k = 0; k < across.size(); ++k) {

@@ -38,6 +38,7 @@ struct State {
   double frictionWork = 0;                         ///< dissipated by friction so far [J/m]
   std::vector<double> frictionWorkOf;              ///< the same by interfaces; 0 without friction
   double gapWork = 0;  ///< done on the bodies so far by distances that change in time [J/m]
+  std::vector<Vector> tieForce = {};  ///< per tie and row [N/m]
 };
 
 /// The state of the solver itself that a run needs to resume, per body; empty before the first step.

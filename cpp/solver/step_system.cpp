@@ -65,7 +65,6 @@ void StepSystem::updateConstraints() {
   joinMotions();
   contact_.along = {};
   findFriction();
-  contact_.W.resize(0, 0);  // made anew with the next factors
 }
 
 Step StepSystem::step(const State& state0, const StepData& data) {
@@ -119,6 +118,23 @@ void StepSystem::subtractContact(const std::vector<Vector>& p, const std::vector
   }
 }
 
+void StepSystem::subtractTies(const std::vector<Vector>& l, std::vector<Vector>& force) const {
+  for (size_t k = 0; k < model_.ties.size(); ++k) {
+    const ContactPair& pair = model_.ties[k].pair();
+    model_.ties[k].subtractForces(l[k], force[pair.nonmortar.body], force[pair.mortar.body]);
+  }
+}
+
+std::vector<Vector> StepSystem::tiesOf(const Vector& all) const {
+  std::vector<Vector> parts;
+  Eigen::Index first = conditions();
+  for (const Tie& tie : model_.ties) {
+    parts.emplace_back(all.segment(first, tie.rows()));
+    first += tie.rows();
+  }
+  return parts;
+}
+
 StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, const LawOf& lawOf) {
   std::vector<double> residual(bodies_.size());
   forEachBody([&](int b) { bodies_[b].linearise(step.explicitStrain(b), iterate.bodies[b], lawOf(b)); });
@@ -168,7 +184,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   system_->olderFactors_ = false;
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
   // After a restart there is neither yet, though factors were counted before it.
-  bool changed = system_->sparse() ? !system_->sparse_->taken() : contact.W.rows() != system_->conditions();
+  bool changed = system_->sparse() ? !system_->sparse_->taken() : !system_->ties_.taken();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
     if (!body.failure.empty()) regular = outcome.fail(Reason::singular, body.failure);
@@ -180,19 +196,20 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
     contact.symmetric = system_->uniqueSolutions();
     system_->sparse_->take(bodies);
   } else if (changed) {
-    contact.W.setZero(system_->conditions(), system_->conditions());
+    Matrix W = std::move(contact.W);
+    W.setZero(system_->constraints(), system_->constraints());
     contact.symmetric = true;
     for (size_t b = 0; b < bodies.size(); ++b) {
       if (bodies[b].contact().none()) continue;
       contact.symmetric = contact.symmetric && system_->model_.bodies[b].material().symmetricTangent();
-      bodies[b].addCompliance(contact.W);
+      bodies[b].addCompliance(W);
     }
     for (size_t k = 0; k < system_->model_.interfaces.size(); ++k) {
       const int first = system_->firstRow_[k];
-      forEachEntry(system_->model_.interfaces[k].compliance(), [&](int row, int column, double value) {
-        contact.W(first + row, first + column) += value;
-      });
+      forEachEntry(system_->model_.interfaces[k].compliance(),
+                   [&](int row, int column, double value) { W(first + row, first + column) += value; });
     }
+    contact.W = system_->ties_.take(std::move(W), contact.symmetric);
   }
   return keepFactors();
 }
@@ -213,8 +230,11 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   for (const Vector& before : step.state0.contactForce)
     if (before.size() > 0) forceScale = std::max(forceScale, before.maxCoeff());
   system_->subtractContact(iterate.contactForce, iterate.frictionForce, force);
+  system_->subtractTies(iterate.tieForce, force);
   Condensed result(*system_, Key{});
-  result.slack = -joined(gaps(model, step.gap0(), iterate), slips(model, iterate));
+  auto& [slack, balance] = result.whole;
+  slack = joined(
+      {-joined(gaps(model, step.gap0(), iterate), slips(model, iterate)), -joined(jumps(model, iterate))});
   result.p0 = joined(iterate.contactForce, iterate.frictionForce);
   result.sets = joinedSets(iterate);
   std::vector<Vector> motion;
@@ -222,14 +242,17 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     motion = system_->condenseBodies(force);
   else
     result.force = std::move(force);
-  result.balance.resize(system_->contact_.G.cols());
+  balance.resize(system_->firstMotion_.back());
   for (size_t b = 0; b < bodies.size(); ++b) {
     const ContactDofs& dofs = bodies[b].contact();
     if (dofs.none()) continue;
-    if (!system_->sparse()) result.slack -= dofs.C * motion[b];
-    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
+    if (!system_->sparse()) slack -= dofs.C * motion[b];
+    balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
   }
-  result.balance -= system_->contact_.G.transpose() * result.p0;
+  balance -= system_->ties_.G().transpose() * joined({result.p0, joined(iterate.tieForce)});
+  TieElimination::Whole ofContact = system_->ties_.reduced(result.whole);
+  result.slack = std::move(ofContact.slack);
+  result.balance = std::move(ofContact.balance);
   return result;
 }
 
@@ -238,7 +261,7 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   const auto fallsBy = [&](const Vector& motion) {
     return outcome.fail(Reason::unheld, (system_->hasFriction() ? "contact and its friction cannot hold "
                                                                 : "contact cannot hold ") +
-                                            system_->describeRigid(motion));
+                                            system_->describeRigid(system_->ties_.wholeMotion(motion)));
   };
   if (contact.outcome == ContactSolution::Outcome::unbalanced) return fallsBy(contact.rigid);
   if (contact.outcome != ContactSolution::Outcome::solved)
@@ -257,7 +280,10 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
                                              counted(contact.pivots, "active set") + ", the work of " +
                                              counted(std::lround(contact.work), "dense factorisation"));
-  system_->expandBodies(contact, [&](int b, const Vector& d) {
+  const ContactSolution all = system_->ties_.completed(contact, whole);
+  std::vector<Vector> tieChange = system_->tiesOf(all.change);
+  for (size_t k = 0; k < tieChange.size(); ++k) iterate.tieForce[k] += tieChange[k];
+  system_->expandBodies(all, [&](int b, const Vector& d) {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();
     Matrix& stress = iterate.bodies[b].stress;

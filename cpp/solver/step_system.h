@@ -5,7 +5,8 @@
 //   sum |T| B' s + C' p = F(t1)                   at every free dof          (equilibrium)
 //   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0    at every nonmortar node    (contact)
 //
-// with T' t beside C' p and the law of t and the slip T du (friction.h) where there is friction.
+// with T' t beside C' p and the law of t and the slip T du (friction.h) where there is friction, and C' l of
+// ties, C du = 0, which are eliminated first (tie_elimination.h).
 //
 // Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; there remains
 //   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
@@ -34,6 +35,7 @@
 #include "solver/iterate.h"
 #include "solver/outcome.h"
 #include "solver/sparse_contact.h"
+#include "solver/tie_elimination.h"
 
 namespace mortier {
 
@@ -59,6 +61,8 @@ struct Response {
 
 /// The sets of all interfaces as one.
 FrictionSets joinedSets(const Iterate& iterate);
+
+class ClosedContact;
 
 class StepSystem {
   struct Key {
@@ -119,7 +123,7 @@ class StepSystem {
   /// it: the bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has
   /// moved so far.
   [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
-  /// Whether there are bodies that contact alone holds.
+  /// Whether there are bodies, tied or not, that contact alone holds.
   [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
   /// Whether contact is solved without dense matrices over its conditions.
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
@@ -160,12 +164,19 @@ class StepSystem {
   /// Takes the contact forces, across the line and along it, from the forces on the bodies (dofs).
   void subtractContact(const std::vector<Vector>& p, const std::vector<Vector>& t,
                        std::vector<Vector>& force) const;
+  /// The same of the forces of ties.
+  void subtractTies(const std::vector<Vector>& l, std::vector<Vector>& force) const;
+  /// One vector by ties from that of all constraints.
+  [[nodiscard]] std::vector<Vector> tiesOf(const Vector& all) const;
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
   [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
   /// The motion under these forces with the contacts that are closed in `on` moved by `slack`.
   [[nodiscard]] ContactSolution holdClosedSparse(const std::vector<Vector>& force, const Vector& slack,
                                                  const Iterate& on) const;
+  /// The same of dense contact, with all constraints.
+  [[nodiscard]] ContactSolution holdClosed(const ClosedContact& closed,
+                                           const TieElimination::Whole& whole) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
   [[nodiscard]] std::vector<int> nonStickingRows(const Iterate& solution) const;
@@ -176,6 +187,8 @@ class StepSystem {
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   /// Those across contact and those along it.
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
+  /// These and the rows of ties.
+  [[nodiscard]] int constraints() const { return conditions() + static_cast<int>(ties_.ties()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
   /// CondensedBody::condense and expand; take(body, displacement).
@@ -190,6 +203,7 @@ class StepSystem {
   std::vector<CondensedBody> bodies_;
   std::vector<int> firstMotion_{0};  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;           ///< its W is that of all conditions; none where contact is sparse
+  TieElimination ties_;
   std::unique_ptr<SparseContact> sparse_;
   SpecialConditions special_;
   StepSolutions solutions_;
@@ -256,11 +270,12 @@ class StepSystem::Condensed {
   /// \returns false where there is none; `outcome` then has the reason.
   bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
 
-  Vector slack;               ///< g0 - C u at dp = 0, then -T du
-  Vector p0;                  ///< contact forces, then those of friction
-  Vector balance;             ///< of the forces that only contact can carry
-  FrictionSets sets;          ///< to begin with
-  std::vector<Vector> force;  ///< out of balance, per body (dofs), where contact is sparse
+  Vector slack;                 ///< g0 - C u at dp = 0, then -T du
+  Vector p0;                    ///< contact forces, then those of friction
+  Vector balance;               ///< of the forces that only contact can carry
+  TieElimination::Whole whole;  ///< slacks and balance with those of ties
+  FrictionSets sets;            ///< to begin with
+  std::vector<Vector> force;    ///< out of balance, per body (dofs), where contact is sparse
 
  private:
   StepSystem* system_;

@@ -83,8 +83,7 @@ void StepTaker::countWork() {
     follow(model_, displacementsOf(state_));
   }
   for (size_t b = 0; b < model_.bodies.size(); ++b)
-    contactAtStart.push_back(
-        contactForces(model_, state_.contactForce, state_.frictionForce, static_cast<int>(b)));
+    contactAtStart.push_back(contactForces(model_, forcesOf(state_), static_cast<int>(b)));
   if (follows()) model_.interfaces = std::move(atEnd);
   std::vector<double> external;
   double means = 0;  // of contact, on all bodies
@@ -93,7 +92,7 @@ void StepTaker::countWork() {
     const int index = static_cast<int>(b);
     const Vector du = solutions_.back().bodies[b].increment.value();
     const Vector contact0 = contactAtStart[b];
-    const Vector contact1 = contactForces(model_, end.contactForce, end.frictionForce, index);
+    const Vector contact1 = contactForces(model_, {end.contactForce, end.frictionForce, end.tieForce}, index);
     const Vector load = body.load(t1_);
     // What loads and supports exert: at the start what the stress balances, as loads may begin at once.
     const Vector before = body.internalForce(state_.bodies[b].stress) + contact0;

@@ -151,7 +151,7 @@ double errorOfContactSize(const Quantity& quantity, const Model& model, const St
   double error = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    if (!isSide(interface.pair(), quantity.body, quantity.label)) continue;
     const Vector sizes = interface.lengths();
     const Vector& p = state.contactForce[k];
     const ContactSide& side = interface.pair().nonmortar;

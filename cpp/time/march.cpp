@@ -260,6 +260,7 @@ State initialState(const Model& model) {
     state.slipping.emplace_back(along, static_cast<signed char>(0));
     state.frictionWorkOf.push_back(0);
   }
+  for (const Tie& tie : model.ties) state.tieForce.push_back(Vector::Zero(tie.rows()));
   return state;
 }
 

@@ -66,7 +66,7 @@ std::vector<Vector> meanPressureShares(const Model& model, int body, int label, 
   for (const ContactInterface& interface : model.interfaces) {
     Vector of = Vector::Zero(interface.rows());
     Vector all = of;
-    if (isSide(interface, body, label)) {
+    if (isSide(interface.pair(), body, label)) {
       const ContactSide& side = interface.pair().nonmortar;
       const Body& nonmortar = model.bodies[side.body];
       const auto nodes = nodesAlong(boundaryLine(nonmortar.mesh(), nonmortar.elementNodes(), side.label));
@@ -101,7 +101,8 @@ std::vector<Vector> meanPressureShares(const Model& model, int body, int label) 
   for (const auto& [a, b, c] : trianglesOn(mesh, label)) area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
   std::vector<Vector> shares;
   for (const ContactInterface& interface : model.interfaces)
-    shares.emplace_back(Vector::Constant(interface.rows(), isSide(interface, body, label) ? 1 / area : 0));
+    shares.emplace_back(
+        Vector::Constant(interface.rows(), isSide(interface.pair(), body, label) ? 1 / area : 0));
   return shares;
 }
 

@@ -9,9 +9,14 @@ bool is(const ContactSide& side, int body, std::optional<int> label) {
 
 }  // namespace
 
-Vector contactForces(const Model& model, const std::vector<Vector>& p, const std::vector<Vector>& t, int body,
-                     std::optional<int> label) {
+Vector contactForces(const Model& model, const InterfaceForces& given, int body, std::optional<int> label) {
+  const auto& [p, t, l] = given;
   Vector forces = Vector::Zero(model.bodies[body].dofs());
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    if (is(tie.pair().nonmortar, body, label)) forces += tie.C1().transpose() * l[k];
+    if (is(tie.pair().mortar, body, label)) forces += tie.C2().transpose() * l[k];
+  }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     if (is(interface.pair().nonmortar, body, label)) forces += interface.C1().transpose() * p[k];
@@ -23,8 +28,8 @@ Vector contactForces(const Model& model, const std::vector<Vector>& p, const std
   return forces;
 }
 
-bool isSide(const ContactInterface& interface, int body, std::optional<int> label) {
-  return is(interface.pair().nonmortar, body, label) || is(interface.pair().mortar, body, label);
+bool isSide(const ContactPair& pair, int body, std::optional<int> label) {
+  return is(pair.nonmortar, body, label) || is(pair.mortar, body, label);
 }
 
 }  // namespace mortier

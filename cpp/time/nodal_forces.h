@@ -10,12 +10,22 @@
 
 namespace mortier {
 
-/// C' p + T' t on a body (dofs) [N/m]: of all interfaces, or of those that have this label of it as a side.
-/// \param p, t  by interfaces; t only where there is friction.
-Vector contactForces(const Model& model, const std::vector<Vector>& p, const std::vector<Vector>& t, int body,
+/// Forces by interfaces, t only where there is friction, and by ties [N/m].
+struct InterfaceForces {
+  const std::vector<Vector>& p;
+  const std::vector<Vector>& t;
+  const std::vector<Vector>& ties;
+};
+inline InterfaceForces forcesOf(const State& state) {
+  return {state.contactForce, state.frictionForce, state.tieForce};
+}
+
+/// C' p + T' t on a body (dofs), and the same of ties [N/m]: of all, or of those that have this label of it as
+/// a side.
+Vector contactForces(const Model& model, const InterfaceForces& forces, int body,
                      std::optional<int> label = std::nullopt);
 
-/// Whether the label of a body is a side of the interface.
-bool isSide(const ContactInterface& interface, int body, std::optional<int> label = std::nullopt);
+/// Whether the label of a body is a side of the pair.
+bool isSide(const ContactPair& pair, int body, std::optional<int> label = std::nullopt);
 
 }  // namespace mortier

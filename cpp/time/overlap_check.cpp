@@ -135,6 +135,19 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
       return (is(pair.nonmortar, 0) && is(pair.mortar, 1)) || (is(pair.nonmortar, 1) && is(pair.mortar, 0));
     });
   };
+  // Sides that are tied overlap as they are drawn.
+  const auto isTied = [&](const Sample& sample) {
+    return std::ranges::any_of(model_.ties, [&](const Tie& tie) {
+      const auto is = [&](const ContactSide& side, int k) {
+        return side.body == sample.bodies[k] && side.label == sample.labels[k];
+      };
+      const auto& [nonmortar, mortar, coupling] = tie.pair();
+      const bool same = nonmortar.body == sample.bodies[0] && mortar.body == sample.bodies[1];
+      const bool turned = nonmortar.body == sample.bodies[1] && mortar.body == sample.bodies[0];
+      return (same && (is(nonmortar, 0) || is(mortar, 1))) || (turned && (is(nonmortar, 1) || is(mortar, 0)));
+    });
+  };
+  if (std::ranges::any_of(region.samples, isTied)) return;
   std::vector<double> allowed;
   std::vector<char> presses;
   for (const Sample& sample : region.samples) {

@@ -28,7 +28,7 @@ PlaceOfLargest largestPressure(const Model& model, const State& state, const Qua
   PlaceOfLargest largest;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    if (!isSide(interface.pair(), quantity.body, quantity.label)) continue;
     const Body& body = model.bodies[interface.pair().nonmortar.body];
     const Vector pressure = interface.contactPressure(state.contactForce[k]);
     for (Eigen::Index i = 0; i < pressure.size(); ++i)
@@ -54,7 +54,7 @@ double contactLength(const Model& model, const State& state, const Quantity& qua
   double length = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    if (!isSide(interface.pair(), quantity.body, quantity.label)) continue;
     const Vector lengths = interface.lengths();
     for (Eigen::Index i = 0; i < lengths.size(); ++i)
       if (state.contactForce[k][i] > 0) length += lengths[i];
@@ -65,7 +65,7 @@ double contactLength(const Model& model, const State& state, const Quantity& qua
 double frictionWork(const Model& model, const State& state, const Quantity& quantity) {
   double work = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k)
-    if (isSide(model.interfaces[k], quantity.body, quantity.label)) work += state.frictionWorkOf[k];
+    if (isSide(model.interfaces[k].pair(), quantity.body, quantity.label)) work += state.frictionWorkOf[k];
   return work;
 }
 
@@ -130,7 +130,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     if (isNew) {
       const Body& body = model.bodies[quantity.body];
       of->second = body.internalForce(state.bodies[quantity.body].stress) - body.load(state.time) +
-                   contactForces(model, state.contactForce, state.frictionForce, quantity.body);
+                   contactForces(model, forcesOf(state), quantity.body);
     }
     return motionOf(quantity, model).dot(of->second);
   };
@@ -151,7 +151,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
         return displacement(quantity);
       case Kind::contactForce:
         return motionOf(quantity, model)
-            .dot(contactForces(model, state.contactForce, state.frictionForce, quantity.body,
+            .dot(contactForces(model, forcesOf(state), quantity.body,
                                quantity.whole ? std::nullopt : std::optional(quantity.label)));
       case Kind::storedEnergy:
         return storedEnergy(model.bodies[quantity.body], body);

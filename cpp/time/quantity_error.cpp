@@ -280,7 +280,7 @@ double growthOfMean(const Quantity& quantity, const Model& model, const State& s
   double size = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    if (!isSide(interface.pair(), quantity.body, quantity.label)) continue;
     const Body& body = model.bodies[quantity.body];
     growth += growthOfSide(body, quantity.label, std::vector<char>(static_cast<size_t>(body.nodes()), 1));
     size += interface.lengths().sum();

@@ -276,14 +276,13 @@ bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place) {
 }
 
 bool contactEndsAt(const Model& model, const State& state, const SpacePoint& place, double reach) {
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    if (!(state.contactForce[k].maxCoeff() > 0)) continue;
-    const ContactPair& pair = model.interfaces[k].pair();
-    if (model.interfaces[k].dimension() == 3 ? endsAt<3>(pair, model, state, place, reach)
-                                             : endsAt<2>(pair, model, state, place, reach))
-      return true;
-  }
-  return false;
+  const bool space = model.bodies.front().dimension() == 3;
+  const auto ends = [&](const ContactPair& pair) {
+    return space ? endsAt<3>(pair, model, state, place, reach) : endsAt<2>(pair, model, state, place, reach);
+  };
+  for (size_t k = 0; k < model.interfaces.size(); ++k)
+    if (state.contactForce[k].maxCoeff() > 0 && ends(model.interfaces[k].pair())) return true;
+  return std::ranges::any_of(model.ties, [&](const Tie& tie) { return ends(tie.pair()); });
 }
 
 }  // namespace mortier

@@ -322,6 +322,7 @@ void StepTaker::commit() {
   for (Vector& force : state_.contactForce) dropIfVanishing(force);
   for (Vector& force : state_.frictionForce) dropIfVanishing(force);
   state_.slipping = std::move(solutions_.back().slipping);
+  state_.tieForce = std::move(solutions_.back().tieForce);
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);
   solutions_.clear();

@@ -63,7 +63,7 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
   const Vector load = body.load(state.time);
   Wrench sum = wrenchOf(load, body);
   size += load.cwiseAbs().sum() +
-          contactForces(model, state.contactForce, state.frictionForce, b).cwiseAbs().sum();
+          contactForces(model, forcesOf(state), b).cwiseAbs().sum();
   std::set<int> held;
   for (const Condition& support : body.conditions().displacements)
     if (!body.rigid()) held.insert(support.label);

@@ -1,0 +1,342 @@
+#include "contact/tie.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+
+#include "base/quadrature_rules.h"
+#include "contact/interface_entries.h"
+#include "contact/row_functions.h"
+#include "contact/surface.h"
+#include "mesh/simplices.h"
+
+namespace mortier {
+namespace {
+
+/// Nodes of a line element or a triangle, and of what is behind it, with values of their shape functions.
+using Trace = std::vector<std::pair<int, double>>;
+
+/// Points that are apart by less than this part of the size of an element are one.
+constexpr double together = 1e-12;
+
+/// Elements behind the sides of a label.
+template <class Mesh>
+class BehindSides {
+ public:
+  BehindSides(const Mesh& mesh, int label) {
+    std::vector<char> on(mesh.vertices.size(), 0);
+    for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
+      if (mesh.boundaryLabels[i] == label)
+        for (const int v : labelledSides(mesh)[i]) on[v] = 1;
+    forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) { elements_[side] = element; });
+  }
+  template <size_t n>
+  [[nodiscard]] int of(const std::array<int, n>& vertices) const {
+    return elements_.at(sideOf(vertices));
+  }
+
+ private:
+  std::map<std::array<int, 3>, int> elements_;
+};
+
+/// The shape functions of an element at a point of a side of it, extended to x.
+/// \param nodes  of the element: vertices, then the middles of its sides
+/// \param places  of these, as columns (dimensions x nodes) [m]
+/// \param at  barycentric coordinates of the point (dimensions + 1)
+template <int dim>
+Trace extended(std::span<const int> nodes, const Eigen::Matrix<double, dim, Eigen::Dynamic>& places,
+               const Eigen::Matrix<double, dim + 1, 1>& at, const Eigen::Matrix<double, dim, 1>& x) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Vector shapes = Vector::Zero(n);
+  Matrix slopes = Matrix::Zero(n, dim + 1);  // by barycentric coordinates
+  if (n == dim + 1) {
+    shapes = at;
+    slopes.setIdentity();
+  } else {
+    for (int k = 0; k <= dim; ++k) {
+      shapes[k] = at[k] * (2 * at[k] - 1);
+      slopes(k, k) = 4 * at[k] - 1;
+    }
+    for (Eigen::Index k = dim + 1; k < n; ++k) {
+      constexpr std::array<std::array<int, 2>, 6> sides = sidesOfTetrahedron;  // first those of a triangle
+      const auto [a, b] = sides[static_cast<size_t>(k - dim - 1)];
+      shapes[k] = 4 * at[a] * at[b];
+      slopes(k, a) = 4 * at[b];
+      slopes(k, b) = 4 * at[a];
+    }
+  }
+  const Matrix along = slopes.rightCols(dim).colwise() - slopes.col(0);
+  const Eigen::Matrix<double, dim, dim> size = places * along;
+  const Eigen::Matrix<double, dim, 1> apart = x - places * shapes;
+  if (apart.norm() > together * size.norm()) shapes += along * size.inverse() * apart;
+  Trace trace;
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (shapes[k] != 0) trace.emplace_back(nodes[static_cast<size_t>(k)], shapes[k]);
+  return trace;
+}
+
+template <int dim, class Nodes>
+Eigen::Matrix<double, dim, Eigen::Dynamic> placesOf(const Nodes& all, std::span<const int> nodes) {
+  Eigen::Matrix<double, dim, Eigen::Dynamic> places(dim, nodes.size());
+  for (size_t k = 0; k < nodes.size(); ++k) places.col(static_cast<Eigen::Index>(k)) = all.places[nodes[k]];
+  return places;
+}
+
+}  // namespace
+
+/// Of the two displacements, by nodes and without a direction: rows of a scalar jump.
+struct Tie::Jumps {
+  std::map<int, int> rowOf;  ///< by nonmortar nodes
+  Triplets nonmortar, mortar;
+  std::map<int, double> lengths;            ///< int chi, by rows
+  std::map<int, std::set<int>> neighbours;  ///< rows on one element
+
+  int row(int node) { return rowOf.try_emplace(node, static_cast<int>(rowOf.size())).first->second; }
+  void add(int row, double weight, const Trace& own, const Trace& across) {
+    for (const auto& [node, value] : own) nonmortar.emplace_back(row, node, weight * value);
+    for (const auto& [node, value] : across) mortar.emplace_back(row, node, -weight * value);
+    lengths[row] += weight;
+  }
+  void join(const std::vector<int>& rows) {
+    for (const int row : rows) neighbours[row].insert(rows.begin(), rows.end());
+  }
+};
+
+Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
+         const TieOptions& options)
+    : pair_(pair) {
+  const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
+  const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
+  const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
+  const MortarLine across(mortar);
+  const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
+  Jumps jumps;
+  double length = 0;
+  for (const SmoothPart& part : parts) {
+    length += part.length();
+    const CommonRefinement refinement(part, across);
+    if (refinement.segments().empty()) continue;
+    overlap_ += refinement.length();
+    const RowFunctions functions(pair.coupling, refinement, {});
+    const auto ownTrace = [&](int element, const EdgeValues& phi) {
+      Trace trace;
+      const EdgeNodes nodes = part.nodesOf(element);
+      for (Eigen::Index k = 0; k < nodes.size(); ++k) trace.emplace_back(part.number(nodes[k]), phi[k]);
+      return trace;
+    };
+    const auto mortarTrace = [&](const Segment& segment, const FacingPair& facing) {
+      const int a = across.nodes[segment.mortar];
+      const int b = across.nodes[segment.mortar + 1];
+      const auto triangle = static_cast<size_t>(behind.of(std::array{a, b}));
+      const std::span nodes(mortarMesh.nodes.of(triangle),
+                            static_cast<size_t>(mortarMesh.nodes.perTriangle()));
+      const double xi = facing.psi[1] + (facing.psi.size() > 2 ? facing.psi[2] / 2 : 0);
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k) at[k] = nodes[k] == a ? 1 - xi : nodes[k] == b ? xi : 0;
+      Point x = Point::Zero();
+      const EdgeNodes own = part.nodesOf(segment.nonmortar);
+      for (Eigen::Index k = 0; k < own.size(); ++k)
+        x += facing.phi[k] * nonmortarMesh.nodes.places[part.number(own[k])];
+      distance_ = std::max(distance_, std::abs(facing.distance));
+      return extended<2>(nodes, placesOf<2>(mortarMesh.nodes, nodes), at, x);
+    };
+    std::vector<int> rowOf;
+    for (const int node : functions.nodes()) rowOf.push_back(jumps.row(part.number(node)));
+    const auto rowsAt = [&](const EdgeNodes& rows) {
+      std::vector<int> all;
+      for (const int row : rows)
+        if (row >= 0) all.push_back(rowOf[row]);
+      return all;
+    };
+    for (int e = 0; e < part.elements(); ++e) jumps.join(rowsAt(functions.at(e)));
+    if (pair.coupling == CouplingKind::interpolation) {
+      for (const int node : functions.nodes()) {
+        const int row = jumps.row(part.number(node));
+        if (jumps.lengths.contains(row)) continue;
+        const auto [facing, place] = refinement.facingOfNode(node);
+        jumps.add(row, 1, {{part.number(node), 1}}, mortarTrace(place, facing));
+      }
+      continue;
+    }
+    atLobattoPoints(
+        refinement, functions,
+        [&](const Segment& segment, const EdgeNodes& rows, double s, const EdgeValues& chi, double weight) {
+          const FacingPair facing = refinement.pairAt(segment, s);
+          const double xi = part.partAt(segment.nonmortar, s);
+          const double depth = options.axisymmetric ? circumference(part.at(segment.nonmortar, xi)) : 1;
+          const Trace own = ownTrace(segment.nonmortar, facing.phi);
+          const Trace opposite = mortarTrace(segment, facing);
+          for (Eigen::Index i = 0; i < rows.size(); ++i)
+            if (rows[i] >= 0)
+              jumps.add(rowOf[rows[i]], weight * facing.stretch * depth * chi[i], own, opposite);
+        });
+  }
+  if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
+  overlap_ /= length;
+  setRows(jumps, options, nonmortarMesh.nodes.count(), mortarMesh.nodes.count());
+}
+
+Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const SpaceContactMesh& mortarMesh,
+         const TieOptions& options)
+    : pair_(pair), dimension_(3) {
+  ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
+  ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
+  shareNormals(nonmortar, mortar);
+  const TriangleTree tree(mortar);
+  SurfaceRefinement refinement(nonmortar, mortar, tree);
+  const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
+  const auto& vertices = nonmortarMesh.nodes.places;
+  const auto mortarTrace = [&](int triangle, const Eigen::Vector3d& mu, const SpacePoint& x) {
+    const auto& corners = mortar.triangles[triangle];
+    const auto element = static_cast<size_t>(behind.of(std::array{corners[0], corners[1], corners[2]}));
+    const std::span nodes(mortarMesh.nodes.of(element), static_cast<size_t>(mortarMesh.nodes.perElement()));
+    Eigen::Vector4d at = Eigen::Vector4d::Zero();
+    for (int k = 0; k < 4; ++k)
+      for (int c = 0; c < 3; ++c)
+        if (nodes[k] == corners[c]) at[k] = mu[c];
+    return extended<3>(nodes, placesOf<3>(mortarMesh.nodes, nodes), at, x);
+  };
+  Jumps jumps;
+  const bool atNodes = pair.coupling == CouplingKind::interpolation;
+  std::map<int, RayHit> hits;
+  for (auto& [key, vertex] : refinement.vertices) {
+    if (!vertex.faces) continue;
+    if (atNodes) {
+      const RayHit hit = tree.along(vertex.place, refinement.directionAt(vertex), refinement.reach);
+      if (hit.triangle < 0) continue;
+      hits.try_emplace(key.first, hit);
+    }
+    vertex.rows.emplace_back(jumps.row(key.first), 1);
+  }
+  shareFunctions(refinement.vertices);
+  for (const auto& [node, hit] : hits) {
+    distance_ = std::max(distance_, std::abs(hit.delta));
+    jumps.add(jumps.row(node), 1, {{node, 1}}, mortarTrace(hit.triangle, hit.mu, vertices[node]));
+  }
+  double covered = 0;
+  for (const FacingTriangles& each : refinement.facing) {
+    const auto& nodes = nonmortar.triangles[each.nonmortar];
+    const auto& x = nonmortar.places[each.nonmortar];
+    const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    std::array<const VertexFacts*, 3> corners;
+    std::vector<int> rows;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = &refinement.vertices.at({nodes[k], nonmortar.parts[each.nonmortar]});
+      for (const auto& [row, part] : corners[k]->rows) rows.push_back(row);
+    }
+    jumps.join(rows);
+    for (size_t last = 2; last < each.polygon.size(); ++last) {
+      const Point& p0 = each.polygon[0];
+      const Point e1 = each.polygon[last - 1] - p0;
+      const Point e2 = each.polygon[last] - p0;
+      const double area = cross(e1, e2) / 2 * twiceArea;
+      if (!(area > 0)) continue;
+      covered += area;
+      for (const auto& [at, weight] : radonSeven) {
+        if (atNodes) break;
+        const Point l = p0 + at[1] * e1 + at[2] * e2;
+        const Eigen::Vector3d b(1 - l.sum(), l.x(), l.y());
+        Trace own;
+        const auto phi = traceShapes(nonmortar.degree, b);
+        for (int k = 0; k < nonmortar.perTriangle(); ++k) own.emplace_back(nodes[k], phi[k]);
+        const SpacePoint place = b[0] * x[0] + b[1] * x[1] + b[2] * x[2];
+        const Eigen::Vector3d mu = each.at(l);
+        distance_ = std::max(distance_, std::abs(mu.dot(each.delta)));
+        const Trace opposite = mortarTrace(each.mortar, mu, place);
+        for (int k = 0; k < 3; ++k)
+          for (const auto& [row, part] : corners[k]->rows)
+            jumps.add(row, weight * area * b[k] * part, own, opposite);
+      }
+    }
+  }
+  if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
+  overlap_ = covered / nonmortar.area;
+  setRows(jumps, options, nonmortarMesh.nodes.count(), mortarMesh.nodes.count());
+}
+
+void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int nodes2) {
+  const auto count = static_cast<Eigen::Index>(jumps.rowOf.size());
+  Vector scale(count);
+  for (Eigen::Index i = 0; i < count; ++i) scale[i] = 1 / jumps.lengths.at(static_cast<int>(i));
+  const ConstraintRows own = scale.asDiagonal() * assembled<ConstraintRows>(count, nodes1, jumps.nonmortar);
+  const ConstraintRows across = scale.asDiagonal() * assembled<ConstraintRows>(count, nodes2, jumps.mortar);
+  // Directions of the rows of nodes, and which of them are held.
+  const bool atNodes = pair_.coupling == CouplingKind::interpolation;
+  std::vector<Eigen::Matrix3d> frames(count, Eigen::Matrix3d::Identity());
+  std::vector<std::array<char, 3>> held(count, std::array<char, 3>{});
+  const auto isHeld = [](const TieOptions::Held& by, int node, const SpacePoint& d) {
+    return by && by(node, d);
+  };
+  for (const auto& [node, row] : jumps.rowOf) {
+    if (options.frame) frames[row] = options.frame(node);
+    const bool taken = options.taken && options.taken(node);
+    for (int c = 0; c < dimension_; ++c)
+      held[row][c] = taken || isHeld(options.nonmortarHeld, node, frames[row].row(c)) ? 1 : 0;
+  }
+  const auto moves = [&](const ConstraintRows& values, int row, const TieOptions::Held& by,
+                         const SpacePoint& d) {
+    for (ConstraintRows::InnerIterator entry(values, row); entry; ++entry)
+      if (!isHeld(by, static_cast<int>(entry.col()), d)) return true;
+    return false;
+  };
+  // A held direction goes to neighbours that are not held along it; it stays where there are none.
+  const auto takers = [&](int row, const SpacePoint& direction) {
+    constexpr double nearly = 0.5;
+    std::vector<int> result;
+    for (const int neighbour : jumps.neighbours.at(row)) {
+      bool takes = neighbour != row;
+      for (int c = 0; c < dimension_ && takes; ++c)
+        takes = held[neighbour][c] == 0 || std::abs(frames[neighbour].row(c).dot(direction)) < nearly;
+      if (takes) result.push_back(neighbour);
+    }
+    return result;
+  };
+  std::vector<std::array<int, 3>> rowOf(count, std::array{-1, -1, -1});
+  std::vector<std::array<std::vector<int>, 3>> goesTo(count);
+  int rows = 0;
+  for (const auto& [node, row] : jumps.rowOf)
+    for (int c = 0; c < dimension_; ++c) {
+      const SpacePoint d = frames[row].row(c);
+      if (held[row][c] != 0 && !atNodes) goesTo[row][c] = takers(row, d);
+      const bool dropped = atNodes && options.taken && options.taken(node);
+      if (goesTo[row][c].empty() && !dropped &&
+          (moves(own, row, options.nonmortarHeld, d) || moves(across, row, options.mortarHeld, d)))
+        rowOf[row][c] = rows++;
+    }
+  Triplets entries1, entries2;
+  const auto add = [&](Triplets& entries, const ConstraintRows& values, int from, int to, const SpacePoint& d,
+                       double factor) {
+    for (ConstraintRows::InnerIterator entry(values, from); entry; ++entry)
+      for (int c = 0; c < dimension_; ++c)
+        if (const double value = factor * entry.value() * d[c]; value != 0)
+          entries.emplace_back(to, dimension_ * static_cast<int>(entry.col()) + c, value);
+  };
+  const auto addRow = [&](int from, int to, const SpacePoint& d, double factor) {
+    add(entries1, own, from, to, d, factor);
+    add(entries2, across, from, to, d, factor);
+  };
+  for (const auto& [node, row] : jumps.rowOf) {
+    bool any = false;
+    for (int c = 0; c < dimension_; ++c) {
+      const SpacePoint d = frames[row].row(c);
+      if (rowOf[row][c] >= 0) {
+        addRow(row, rowOf[row][c], d, 1);
+        any = true;
+        continue;
+      }
+      const std::vector<int>& to = goesTo[row][c];
+      for (const int taker : to)
+        for (int k = 0; k < dimension_; ++k)
+          if (const double part = frames[taker].row(k).dot(d); rowOf[taker][k] >= 0 && part != 0)
+            addRow(row, rowOf[taker][k], d,
+                   scale[taker] / scale[row] * part / static_cast<double>(to.size()));
+    }
+    if (any) nodes_.push_back(node);
+  }
+  C1_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes1, entries1);
+  C2_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes2, entries2);
+}
+
+}  // namespace mortier
