@@ -87,10 +87,15 @@ std::string ofContacts(const SceneDescription& scene,
   return list;
 }
 
-/// Of every interface; none where there is no friction.
+/// Of every interface; none where there is no friction and no tie.
 std::string friction(const SceneDescription& scene) {
-  if (!hasFriction(scene)) return "";
-  return "macro rough yes //  friction of each: Coulomb's coefficient, Tresca's limit\nreal[int] friction = "
+  const std::string tied = ofContacts(scene, [](const auto& contact) { return contact.tied ? "1" : "0"; });
+  const std::string ties = tied.find('1') == std::string::npos
+                               ? ""
+                               : "macro anyTied yes //  sides move as one\nint[int] tied = [" + tied + "];\n";
+  if (!hasFriction(scene)) return ties;
+  return ties +
+         "macro rough yes //  friction of each: Coulomb's coefficient, Tresca's limit\nreal[int] friction = "
          "[" +
          ofContacts(scene, [](const auto& contact) { return shortest(contact.friction.coefficient); }) +
          "], shearLimit = [" +
@@ -214,12 +219,36 @@ std::string script(const SceneDescription& scene, const Model& model,
   return out.str();
 }
 
+/// Makes contacts of ties: the script keeps all of their rows. \throws InputError for those of which the rows
+/// are others
+void takeTies(SceneDescription& scene, Model& model) {
+  constexpr double touching = 1e-9;
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const auto count = static_cast<int>(tie.nonmortarNodes().size());
+    const bool apart = tie.distance() > touching * model.bodies[tie.pair().nonmortar.body].extent();
+    if (scene.inSpace() || apart || tie.rows() != tie.dimension() * count)
+      throw InputError(
+          scene.ties[k].where +
+          ": contact: kind = \"tied\", expected sides in the plane that touch, with no nonmortar "
+          "node that is held or tied twice (all that the FreeFEM method knows)");
+    scene.contacts.push_back(scene.ties[k]);
+    addContact(scene, scene.ties[k], model);
+  }
+  scene.ties.clear();
+}
+
 }  // namespace
 
-std::string freefemObstacle(const SceneDescription& scene, const Model& model, bool stepsGiven) {
+std::string freefemObstacle(const SceneDescription& given, const Model& ofRun, bool stepsGiven) {
   std::vector<std::string> meshFiles;
-  for (const BodyDescription& body : scene.bodies) meshFiles.push_back(body.name + ".mesh");
+  for (const BodyDescription& body : given.bodies) meshFiles.push_back(body.name + ".mesh");
   try {
+    SceneDescription scene = given;
+    Model withTies;
+    if (!scene.ties.empty()) withTies = ofRun;
+    const Model& model = scene.ties.empty() ? ofRun : withTies;
+    takeTies(scene, withTies);
     requireFreefemKnows(scene, model, stepsGiven);
     script(scene, model, meshFiles, {});
   } catch (const InputError& error) {
@@ -270,8 +299,9 @@ struct FreefemOptions : SceneOptions {
 int writeFreefem(const FreefemOptions& command) {
   // 1. The scene, checked as for a run of our own.
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
-  const Model model = buildModel(resolved);
-  const SceneDescription& scene = resolved.description;
+  Model model = buildModel(resolved);
+  SceneDescription& scene = resolved.description;
+  takeTies(scene, model);
   requireFreefemKnows(scene, model, !command.stepsOf.empty());
 
   // 2. The meshes that FreeFEM does not read, beside the script.

@@ -19,7 +19,6 @@ namespace {
 
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
-  if (!scene.ties.empty()) refuse(scene.ties.front().where + ": contact: kind = \"tied\"", "unilateral");
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
   if (scene.time.scheme != Scheme::backwardEuler)
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
