@@ -16,7 +16,7 @@ namespace mortier {
 namespace {
 
 /// Nodes of a line element or a triangle, and of what is behind it, with values of their shape functions.
-using Trace = std::vector<std::pair<int, double>>;
+using NodeValues = std::vector<std::pair<int, double>>;
 
 /// Points that are apart by less than this part of the size of an element are one.
 constexpr double together = 1e-12;
@@ -46,8 +46,8 @@ class BehindSides {
 /// \param places  of these, as columns (dimensions x nodes) [m]
 /// \param at  barycentric coordinates of the point (dimensions + 1)
 template <int dim>
-Trace extended(std::span<const int> nodes, const Eigen::Matrix<double, dim, Eigen::Dynamic>& places,
-               const Eigen::Matrix<double, dim + 1, 1>& at, const Eigen::Matrix<double, dim, 1>& x) {
+NodeValues extended(std::span<const int> nodes, const Eigen::Matrix<double, dim, Eigen::Dynamic>& places,
+                    const Eigen::Matrix<double, dim + 1, 1>& at, const Eigen::Matrix<double, dim, 1>& x) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   Vector shapes = Vector::Zero(n);
   Matrix slopes = Matrix::Zero(n, dim + 1);  // by barycentric coordinates
@@ -71,7 +71,7 @@ Trace extended(std::span<const int> nodes, const Eigen::Matrix<double, dim, Eige
   const Eigen::Matrix<double, dim, dim> size = places * along;
   const Eigen::Matrix<double, dim, 1> apart = x - places * shapes;
   if (apart.norm() > together * size.norm()) shapes += along * size.inverse() * apart;
-  Trace trace;
+  NodeValues trace;
   for (Eigen::Index k = 0; k < n; ++k)
     if (shapes[k] != 0) trace.emplace_back(nodes[static_cast<size_t>(k)], shapes[k]);
   return trace;
@@ -88,13 +88,15 @@ Eigen::Matrix<double, dim, Eigen::Dynamic> placesOf(const Nodes& all, std::span<
 
 /// Of the two displacements, by nodes and without a direction: rows of a scalar jump.
 struct Tie::Jumps {
-  std::map<int, int> rowOf;  ///< by nonmortar nodes
+  std::map<PartVertex, int> rowOf;  ///< by nonmortar nodes and smooth parts
   Triplets nonmortar, mortar;
   std::map<int, double> lengths;            ///< int chi, by rows
   std::map<int, std::set<int>> neighbours;  ///< rows on one element
 
-  int row(int node) { return rowOf.try_emplace(node, static_cast<int>(rowOf.size())).first->second; }
-  void add(int row, double weight, const Trace& own, const Trace& across) {
+  int row(int node, int part) {
+    return rowOf.try_emplace({node, part}, static_cast<int>(rowOf.size())).first->second;
+  }
+  void add(int row, double weight, const NodeValues& own, const NodeValues& across) {
     for (const auto& [node, value] : own) nonmortar.emplace_back(row, node, weight * value);
     for (const auto& [node, value] : across) mortar.emplace_back(row, node, -weight * value);
     lengths[row] += weight;
@@ -114,14 +116,15 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
   const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
   Jumps jumps;
   double length = 0;
-  for (const SmoothPart& part : parts) {
+  for (size_t number = 0; number < parts.size(); ++number) {
+    const SmoothPart& part = parts[number];
     length += part.length();
     const CommonRefinement refinement(part, across);
     if (refinement.segments().empty()) continue;
     overlap_ += refinement.length();
     const RowFunctions functions(pair.coupling, refinement, {});
     const auto ownTrace = [&](int element, const EdgeValues& phi) {
-      Trace trace;
+      NodeValues trace;
       const EdgeNodes nodes = part.nodesOf(element);
       for (Eigen::Index k = 0; k < nodes.size(); ++k) trace.emplace_back(part.number(nodes[k]), phi[k]);
       return trace;
@@ -143,7 +146,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
       return extended<2>(nodes, placesOf<2>(mortarMesh.nodes, nodes), at, x);
     };
     std::vector<int> rowOf;
-    for (const int node : functions.nodes()) rowOf.push_back(jumps.row(part.number(node)));
+    for (const int node : functions.nodes())
+      rowOf.push_back(jumps.row(part.number(node), static_cast<int>(number)));
     const auto rowsAt = [&](const EdgeNodes& rows) {
       std::vector<int> all;
       for (const int row : rows)
@@ -152,11 +156,10 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
     };
     for (int e = 0; e < part.elements(); ++e) jumps.join(rowsAt(functions.at(e)));
     if (pair.coupling == CouplingKind::interpolation) {
-      for (const int node : functions.nodes()) {
-        const int row = jumps.row(part.number(node));
-        if (jumps.lengths.contains(row)) continue;
+      for (size_t i = 0; i < rowOf.size(); ++i) {
+        const int node = functions.nodes()[i];
         const auto [facing, place] = refinement.facingOfNode(node);
-        jumps.add(row, 1, {{part.number(node), 1}}, mortarTrace(place, facing));
+        jumps.add(rowOf[i], 1, {{part.number(node), 1}}, mortarTrace(place, facing));
       }
       continue;
     }
@@ -166,8 +169,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
           const FacingPair facing = refinement.pairAt(segment, s);
           const double xi = part.partAt(segment.nonmortar, s);
           const double depth = options.axisymmetric ? circumference(part.at(segment.nonmortar, xi)) : 1;
-          const Trace own = ownTrace(segment.nonmortar, facing.phi);
-          const Trace opposite = mortarTrace(segment, facing);
+          const NodeValues own = ownTrace(segment.nonmortar, facing.phi);
+          const NodeValues opposite = mortarTrace(segment, facing);
           for (Eigen::Index i = 0; i < rows.size(); ++i)
             if (rows[i] >= 0)
               jumps.add(rowOf[rows[i]], weight * facing.stretch * depth * chi[i], own, opposite);
@@ -200,20 +203,21 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
   };
   Jumps jumps;
   const bool atNodes = pair.coupling == CouplingKind::interpolation;
-  std::map<int, RayHit> hits;
+  std::map<PartVertex, RayHit> hits;
   for (auto& [key, vertex] : refinement.vertices) {
     if (!vertex.faces) continue;
     if (atNodes) {
       const RayHit hit = tree.along(vertex.place, refinement.directionAt(vertex), refinement.reach);
       if (hit.triangle < 0) continue;
-      hits.try_emplace(key.first, hit);
+      hits.emplace(key, hit);
     }
-    vertex.rows.emplace_back(jumps.row(key.first), 1);
+    vertex.rows.emplace_back(jumps.row(key.first, key.second), 1);
   }
   shareFunctions(refinement.vertices);
-  for (const auto& [node, hit] : hits) {
+  for (const auto& [key, hit] : hits) {
+    const int node = key.first;
     distance_ = std::max(distance_, std::abs(hit.delta));
-    jumps.add(jumps.row(node), 1, {{node, 1}}, mortarTrace(hit.triangle, hit.mu, vertices[node]));
+    jumps.add(jumps.row(node, key.second), 1, {{node, 1}}, mortarTrace(hit.triangle, hit.mu, vertices[node]));
   }
   double covered = 0;
   for (const FacingTriangles& each : refinement.facing) {
@@ -238,13 +242,13 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
         if (atNodes) break;
         const Point l = p0 + at[1] * e1 + at[2] * e2;
         const Eigen::Vector3d b(1 - l.sum(), l.x(), l.y());
-        Trace own;
+        NodeValues own;
         const auto phi = traceShapes(nonmortar.degree, b);
         for (int k = 0; k < nonmortar.perTriangle(); ++k) own.emplace_back(nodes[k], phi[k]);
         const SpacePoint place = b[0] * x[0] + b[1] * x[1] + b[2] * x[2];
         const Eigen::Vector3d mu = each.at(l);
         distance_ = std::max(distance_, std::abs(mu.dot(each.delta)));
-        const Trace opposite = mortarTrace(each.mortar, mu, place);
+        const NodeValues opposite = mortarTrace(each.mortar, mu, place);
         for (int k = 0; k < 3; ++k)
           for (const auto& [row, part] : corners[k]->rows)
             jumps.add(row, weight * area * b[k] * part, own, opposite);
@@ -269,9 +273,12 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
   const auto isHeld = [](const TieOptions::Held& by, int node, const SpacePoint& d) {
     return by && by(node, d);
   };
-  for (const auto& [node, row] : jumps.rowOf) {
+  std::map<int, int> parts;  // that meet at a node
+  for (const auto& [key, row] : jumps.rowOf) ++parts[key.first];
+  for (const auto& [key, row] : jumps.rowOf) {
+    const int node = key.first;
     if (options.frame) frames[row] = options.frame(node);
-    const bool taken = options.taken && options.taken(node);
+    const bool taken = parts[node] > 1 || (options.taken && options.taken(node));
     for (int c = 0; c < dimension_; ++c)
       held[row][c] = taken || isHeld(options.nonmortarHeld, node, frames[row].row(c)) ? 1 : 0;
   }
@@ -296,15 +303,18 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
   std::vector<std::array<int, 3>> rowOf(count, std::array{-1, -1, -1});
   std::vector<std::array<std::vector<int>, 3>> goesTo(count);
   int rows = 0;
-  for (const auto& [node, row] : jumps.rowOf)
+  std::set<int> done;
+  for (const auto& [key, row] : jumps.rowOf) {
+    const int node = key.first;
+    const bool dropped = atNodes && ((options.taken && options.taken(node)) || !done.insert(node).second);
     for (int c = 0; c < dimension_; ++c) {
       const SpacePoint d = frames[row].row(c);
       if (held[row][c] != 0 && !atNodes) goesTo[row][c] = takers(row, d);
-      const bool dropped = atNodes && options.taken && options.taken(node);
       if (goesTo[row][c].empty() && !dropped &&
           (moves(own, row, options.nonmortarHeld, d) || moves(across, row, options.mortarHeld, d)))
         rowOf[row][c] = rows++;
     }
+  }
   Triplets entries1, entries2;
   const auto add = [&](Triplets& entries, const ConstraintRows& values, int from, int to, const SpacePoint& d,
                        double factor) {
@@ -317,13 +327,13 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
     add(entries1, own, from, to, d, factor);
     add(entries2, across, from, to, d, factor);
   };
-  for (const auto& [node, row] : jumps.rowOf) {
-    bool any = false;
+  std::set<int> nodes;
+  for (const auto& [key, row] : jumps.rowOf) {
     for (int c = 0; c < dimension_; ++c) {
       const SpacePoint d = frames[row].row(c);
       if (rowOf[row][c] >= 0) {
         addRow(row, rowOf[row][c], d, 1);
-        any = true;
+        nodes.insert(key.first);
         continue;
       }
       const std::vector<int>& to = goesTo[row][c];
@@ -333,8 +343,8 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
             addRow(row, rowOf[taker][k], d,
                    scale[taker] / scale[row] * part / static_cast<double>(to.size()));
     }
-    if (any) nodes_.push_back(node);
   }
+  nodes_.assign(nodes.begin(), nodes.end());
   C1_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes1, entries1);
   C2_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes2, entries2);
 }

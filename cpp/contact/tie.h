@@ -14,7 +14,8 @@
 //
 // A node has a row for each axis, or for each direction of the frame of its support where that is turned.
 // Along a direction in which the node is held the row function goes to neighbours with rows, and so it does
-// at nodes where another tie has rows: there are no more rows than motions. Interpolation has no such row.
+// at nodes where another tie has rows, and at corners, where tractions jump: there are no more rows than
+// motions. Interpolation has no such row.
 #pragma once
 
 #include <functional>

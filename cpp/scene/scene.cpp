@@ -229,9 +229,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   readTools(root, scene);
   for (const Node* contact : root.tables("contact")) {
-    ContactDescription read = readContact(*contact, scene);
-    if (scene.accuracy.energy > 0) requireEstimated(read, scene.degree);
-    (read.tied ? scene.ties : scene.contacts).push_back(std::move(read));
+    ContactDescription described = readContact(*contact, scene);
+    if (scene.accuracy.energy > 0) requireEstimated(described, scene.degree);
+    (described.tied ? scene.ties : scene.contacts).push_back(std::move(described));
   }
   for (const Node* quantity : root.tables("quantity"))
     scene.quantities.push_back(readQuantity(*quantity, scene));

@@ -110,6 +110,7 @@ double proximalStiffness(double stiffness, double load, double open) {
 }
 
 RigidMotions rigidMotionsOn(const std::vector<char>& active, const Matrix& G) {
+  if (G.cols() == 0) return {Matrix(0, 0), Matrix(0, 0)};
   // Those that move no condition have the proximal term alone,
   // however weak it is beside the rounding of the others.
   constexpr double heldFraction = 1e-14;

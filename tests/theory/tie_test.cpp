@@ -15,7 +15,10 @@ namespace mortier::tie_test {
 
 using namespace scenes;
 
-constexpr double reproduced = 1e-13;  // over the largest stress
+/// Over the stress; rounding times the condition of some hundred, for degree 2 some thousand unknowns.
+constexpr double reproduced(int degree) {
+  return degree == 1 ? 1e-13 : 2.5e-13;
+}
 
 using Map = std::function<Point(const Point&)>;
 
@@ -102,7 +105,8 @@ TEST(Tie, passesThePatchTestOnLevelAndTiltedSides) {
         for (const int nonmortar : {upperBody, lowerBody})
           for (const double degrees : {0.0, 29.0, 90.0})
             for (const Cells& cells : {Cells{5, 7}, Cells{1, 3}, Cells{13, 4}})
-              EXPECT_LE(Patch({cells, nonmortar, coupling, degree, held, turned(degrees)}).error(), reproduced)
+              EXPECT_LE(Patch({cells, nonmortar, coupling, degree, held, turned(degrees)}).error(),
+                        reproduced(degree))
                   << cells.upper << " on " << cells.lower << ", degree " << degree << ", held " << held
                   << ", nonmortar " << nonmortar << ", " << degrees << " degrees";
 }
@@ -136,7 +140,7 @@ TEST(Tie, passesThePatchTestOnBrokenSides) {
   for (const int degree : {1, 2})
     for (const int nonmortar : {upperBody, lowerBody})
       for (const Cells& cells : {Cells{4, 6}, Cells{2, 8}})
-        EXPECT_LE(error(cells, nonmortar, degree), reproduced)
+        EXPECT_LE(error(cells, nonmortar, degree), reproduced(degree))
             << cells.upper << " on " << cells.lower << ", degree " << degree << ", nonmortar " << nonmortar;
 }
 
@@ -144,17 +148,17 @@ TEST(Tie, passesThePatchTestOnBrokenSides) {
 TEST(Tie, turnsAsOneBodyHoweverFarApartSidesAre) {
   for (const double gap : {0.0, 1e-3, 0.2})
     for (const int degree : {1, 2})
-      for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted, CouplingKind::interpolation}) {
-        const Patch patch{{5, 7}, upperBody, coupling, degree};
+      for (const CouplingKind coupling :
+           {CouplingKind::mortar, CouplingKind::weighted, CouplingKind::interpolation}) {
         Model model;
         TriangleMesh upper = shakenSquare(0, 5, 1);
         for (Point& x : upper.vertices) x.y() += gap;
-        model.bodies.emplace_back("upper", std::move(upper), elasticMaterial(Linear().elasticity), Conditions{},
-                                  degree);
-        const Function x = [](double, double y, double t) { return -0.3 * t * y; };
-        const Function y = [](double x, double, double t) { return 0.3 * t * x; };
+        model.bodies.emplace_back("upper", std::move(upper), elasticMaterial(Linear().elasticity),
+                                  Conditions{}, degree);
+        const Function alongX = [](double, double y, double t) { return -0.3 * t * y; };
+        const Function alongY = [](double x, double, double t) { return 0.3 * t * x; };
         model.bodies.emplace_back("lower", shakenSquare(-1, 7, 2), elasticMaterial(Linear().elasticity),
-                                  Conditions{{{bottom, 0, x}, {bottom, 1, y}}}, degree);
+                                  Conditions{{{bottom, 0, alongX}, {bottom, 1, alongY}}}, degree);
         addTie(model, {{upperBody, bottom}, {lowerBody, top}, coupling});
         const auto [state, report] = run(model, 1, 1);
         ASSERT_EQ(report.status, Status::converged) << report.reason;
@@ -225,20 +229,18 @@ struct Beam {
   }
 };
 
-// The energy of a beam under a given load is below that of the exact solution by the square of the error; a
-// tie, which lets the jump be what it is between the means, adds at most as much as the estimate.
+// The energy of a beam under a given load differs from that of the exact solution by the square of the error.
 TEST(Tie, cutBodiesEqualTheWholeOneWithinTheirEstimate) {
   for (const int degree : {1, 2}) {
     const double exact = Beam{degree == 1 ? 96 : 24, degree}.found().energy;
     const Beam::Found whole = Beam{8, degree}.found();
     for (const std::vector<double>& cuts : {std::vector{2.0}, std::vector{1.3}, std::vector{1.0, 2.5, 3.2}}) {
       const Beam::Found cut = Beam{8, degree, cuts}.found();
-      const double off = std::abs(cut.energy - exact);
-      std::cout << "degree " << degree << ", " << cuts.size() << " cuts: energy off by " << off / exact
-                << ", whole " << std::abs(whole.energy - exact) / exact << ", estimate " << cut.error / exact
-                << "\n";
-      EXPECT_LE(off, 1.3 * cut.error);
-      EXPECT_LE(off, 1.5 * std::abs(whole.energy - exact));
+      std::cout << "degree " << degree << ", " << cuts.size() << " cuts: energy off by "
+                << (cut.energy - exact) / exact << ", whole " << (whole.energy - exact) / exact
+                << ", estimate " << cut.error / exact << "\n";
+      EXPECT_LE(std::abs(cut.energy - whole.energy), cut.error);
+      EXPECT_LE(std::abs(cut.energy - exact), 1.1 * std::abs(whole.energy - exact));
     }
   }
 }
@@ -295,8 +297,7 @@ TEST(Tie, tiedBodiesRestOnContact) {
   addTie(model, {{0, right}, {1, left}});
   const auto [state, report] = run(model, 1, 2);
   ASSERT_EQ(report.status, Status::converged) << report.reason;
-  const double pressed = model.interfaces[0].weights().size() + state.contactForce[0].sum();
-  EXPECT_NEAR(state.contactForce[0].sum() + state.contactForce[1].sum(), 2, 1e-12) << pressed;
+  EXPECT_NEAR(state.contactForce[0].sum() + state.contactForce[1].sum(), 2, 1e-12);
   EXPECT_NEAR(state.contactForce[0].sum(), state.contactForce[1].sum(), 0.02);
   EXPECT_LE(report.worst.forceBalance, balanceTolerance);
 }
@@ -340,9 +341,8 @@ struct SpacePatch {
                                      : label == front   ? SpacePoint(0, -1, 0)
                                                         : SpacePoint(0, 1, 0));
         for (const int c : {0, 1, 2})
-          conditions.tractions.push_back({label, c, [value = stress.row(c).dot(n)](const SpacePoint&, double t) {
-                                            return t * value;
-                                          }});
+          conditions.tractions.push_back(
+              {label, c, [value = stress.row(c).dot(n)](const SpacePoint&, double t) { return t * value; }});
       }
       model.bodies.emplace_back(name, std::move(mesh), elasticMaterial(elasticity, Plane::none),
                                 std::move(conditions), degree);
@@ -368,7 +368,7 @@ TEST(Tie, passesThePatchTestInSpace) {
       for (const bool held : {true, false})
         for (const bool upper : {true, false})
           for (const double degrees : {0.0, 29.0})
-            EXPECT_LE(SpacePatch({degree, coupling, upper, held, degrees}).error(), reproduced)
+            EXPECT_LE(SpacePatch({degree, coupling, upper, held, degrees}).error(), reproduced(2))
                 << "degree " << degree << ", held " << held << ", upper " << upper << ", " << degrees;
 }
 
