@@ -54,6 +54,7 @@ struct RunFacts {
   std::string plane = "stress";       ///< "stress" or "strain"
   std::vector<std::string> settings;  ///< --set, as given
   std::vector<std::string> variants;  ///< per interface: the word of the coupling
+  std::vector<std::string> ties;      ///< the same per tie
   std::vector<std::string>
       choices;             ///< per interface: why its nonmortar side is that; empty where the scene says it
   std::string contact;     ///< all variants, each once; "none" without an interface

@@ -80,6 +80,12 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
                   interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str(),
                   heldEnds(interface).c_str(), pressed.c_str(), polygon(interface).c_str());
   }
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    text += formatted("tie        %s, %zu nonmortar nodes (%s) on %s, overlap %.3f\n", facts.ties[k].c_str(),
+                      tie.nonmortarNodes().size(), model.bodies[tie.pair().nonmortar.body].name().c_str(),
+                      model.bodies[tie.pair().mortar.body].name().c_str(), tie.overlap());
+  }
   return text;
 }
 

@@ -84,6 +84,25 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   return list;
 }
 
+Json ties(const RunFacts& facts, const Model& model, const State& state) {
+  Json list = Json::array();
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const ContactPair& pair = tie.pair();
+    const Vector forces = -(tie.C1().transpose() * state.tieForce[k]);
+    SpacePoint sum = SpacePoint::Zero();
+    for (Eigen::Index dof = 0; dof < forces.size(); ++dof) sum[dof % tie.dimension()] += forces[dof];
+    list.push_back({{"variant", facts.ties[k]},
+                    {"nonmortar", model.bodies[pair.nonmortar.body].name()},
+                    {"mortar", model.bodies[pair.mortar.body].name()},
+                    {"nonmortar_nodes", tie.nonmortarNodes().size()},
+                    {"overlap", tie.overlap()},
+                    {"distance", tie.distance()},
+                    {"resultant", jsonOf(sum, tie.dimension())}});
+  }
+  return list;
+}
+
 Json rounds(const RunFacts& facts, const char* elements) {
   Json list = Json::array();
   for (const RoundFacts& round : facts.rounds)
@@ -231,6 +250,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
                                   [&](size_t sum, const Json& body) { return sum + size_t(body[count]); });
   json["bodies"] = bodyList;
   json["interfaces"] = interfaces(facts, model, state);
+  if (!model.ties.empty()) json["ties"] = ties(facts, model, state);
   json["steps"] = report.steps;
   if (facts.tolerance > 0) {
     json["tolerance"] = facts.tolerance;
