@@ -64,6 +64,7 @@ CASES = [
     (["body.upper.boundary.3.ty='-5-5*t'", "time.scheme=sdirk2", "time.tolerance=1e-5", QUANTITIES], 2),
     ([OWN, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
     ([OWN, "plane=strain", "contact.variant=interpolation", "time.scheme=crank-nicolson"], 1),
+    (['contact.kind="tied"', "contact.variant=mortar", "time.scheme=sdirk2", QUANTITIES], 2),
 ]
 KILLS = 21
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],

@@ -1,0 +1,168 @@
+"""Ties: parts that are cut and tied against whole ones and exact solutions, tools that move a tied side, what
+a tie refuses."""
+import json
+import unittest
+
+from support import InFolder
+
+RINGS = """\
+plane = "strain"
+degree = DEGREE
+[[body]]
+name = "inner"
+mesh = { shape = "annulus", inner = 1, outer = 1.5, span = "quarter", cells = [CELLS] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 1, pressure = 10 }, { label = 3, uy = 0 }, { label = 4, ux = 0 } ]
+[[body]]
+name = "outer"
+mesh = { shape = "annulus", inner = 1.5, outer = 2, span = "quarter", cells = [OTHERS] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 3, uy = 0 }, { label = 4, ux = 0 } ]
+[[contact]]
+kind = "tied"
+VARIANT
+sides = [{ body = "inner", label = 2 }, { body = "outer", label = 1 }]
+[[quantity]]
+name = "outside"
+displacement = { body = "outer", point = [2, 0] }
+component = "x"
+[time]
+end = 1
+steps = 1
+"""
+
+# A block on a plate, which a tool pushes and turns.
+HEAD = """\
+plane = "strain"
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [14, 7] }
+material = { young = 1000, poisson = 0.3, viscosity = 20, yield_stress = 0.5 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[tool]]
+name = "head"
+shape = "rectangle"
+lower = [0, 1]
+upper = [2, 1.5]
+at = [1, 1]
+moment = "-t"
+fx = "0.3*t"
+fy = "-0.5*t"
+[[contact]]
+kind = "tied"
+sides = [{ body = "block", label = 3 }, { body = "head", label = 1 }]
+[[quantity]]
+name = "moment"
+reaction = { body = "block", label = 1 }
+component = "moment"
+[[quantity]]
+name = "push"
+contact_force = { body = "block", label = 3 }
+component = "x"
+[[quantity]]
+name = "turn"
+displacement = { body = "head" }
+component = "rotation"
+[time]
+end = 1
+steps = 10
+"""
+
+# Two blocks, one on the other; CUT: as one, or in two that are tied.
+SPACE = """\
+dimension = 3
+degree = DEGREE
+[[body]]
+name = "lower"
+mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, TOP], cells = [4, 4, LAYERS] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }LOADED ]
+CUT
+[[quantity]]
+name = "corner"
+displacement = { body = "LAST", point = [1, 1, 2] }
+component = "x"
+[time]
+end = 1
+steps = 1
+"""
+UPPER = """\
+[[body]]
+name = "upper"
+mesh = { shape = "cuboid", lower = [0, 0, 1], upper = [1, 1, 2], cells = [5, 5, 5] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = "top", tx = 1 } ]
+[[contact]]
+kind = "tied"
+sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
+"""
+
+
+class Ties(InFolder):
+    def solved(self, text, *options, code=0):
+        self.write(text)
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *options, code=code)
+        summary = json.loads(self.read("out/summary.json"))
+        self.assertEqual(summary["status"], "converged")
+        return summary
+
+    def values(self, summary):
+        return {name: each["value"] for name, each in summary["quantities"].items()}
+
+    def test_a_ring_that_is_cut_along_a_circle_is_lames(self):
+        exact = 1.3/1000*10/3*(0.4*2 + 4/2)
+        for degree, order, variant in ((1, 2, "mortar"), (1, 2, "interpolation"), (2, 1.9, "weighted")):
+            errors = []
+            for k in (1, 2, 4):
+                text = RINGS.replace("CELLS", f"{8*k}, {3*k}").replace("OTHERS", f"{11*k}, {4*k}")
+                summary = self.solved(text.replace("DEGREE", str(degree))
+                                      .replace("VARIANT", f'variant = "{variant}"'))
+                errors.append(abs(self.values(summary)["outside"]/exact - 1))
+                self.assertLess(summary["ties"][0]["distance"], 8e-3/k**2)  # of the two polygons
+            with self.subTest(degree=degree, variant=variant):
+                self.assertLess(errors[2], errors[1]/2**order*1.1)
+                self.assertLess(errors[1], errors[0]/2**order*1.1)
+                self.assertLess(errors[2], 1e-3 if degree == 1 else 1e-6)
+
+    def test_a_tool_moves_the_side_that_is_tied_to_it(self):
+        values = self.values(self.solved(HEAD))
+        self.assertAlmostEqual(values["push"], 0.3, delta=1e-10)
+        # of -t at (1, 1), and of the forces there
+        self.assertAlmostEqual(values["moment"], 1 + 0.5 + 0.3, delta=1e-10)
+        self.assertLess(values["turn"], -1e-3)
+
+    def test_a_solid_that_is_cut_equals_the_whole_one(self):
+        for degree in (1, 2):
+            def text(top, layers, loaded, cut, last):
+                return (SPACE.replace("DEGREE", str(degree)).replace("TOP", str(top))
+                        .replace("LAYERS", str(layers)).replace("LOADED", loaded).replace("CUT", cut)
+                        .replace("LAST", last))
+            whole = self.values(self.solved(text(2, 8, ', { label = "top", tx = 1 }', "", "lower")))["corner"]
+            cut = self.values(self.solved(text(1, 4, "", UPPER, "upper")))["corner"]
+            self.assertLess(abs(cut/whole - 1), 0.04 if degree == 1 else 0.003)
+
+    def test_what_a_tie_refuses(self):
+        self.write(HEAD)
+        for setting, message in (
+                ("contact.friction=0.1", "friction = 0.1, expected none beside kind"),
+                ('contact.sliding="finite"', 'sliding = "finite", expected none beside kind'),
+                ("contact.gap=0.1", "gap = 0.1, expected none beside kind"),
+                ('contact.initial="close"', 'initial = "close", expected none beside kind'),
+                ('contact.kind="glued"', 'kind = "glued", expected one of unilateral, tied'),
+                ("accuracy={energy=0.1, bound=true}", "expected none beside accuracy.bound")):
+            with self.subTest(setting=setting):
+                done = self.mortier("run", "scene.toml", "--set", setting, code=2)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1)
+
+    def test_tied_bodies_that_nothing_holds_are_told(self):
+        self.write(RINGS.replace("DEGREE", "1").replace("CELLS", "8, 3").replace("OTHERS", "11, 4")
+                   .replace("VARIANT", "").replace(", { label = 3, uy = 0 }", "")
+                   .replace("{ label = 3, uy = 0 }, ", ""))
+        done = self.mortier("run", "scene.toml", code=3)
+        self.assertRegex(done.stderr, r"body inner: translation along \(0, (-?1)\), "
+                                      r"body outer: translation along \(0, \1\)")
+
+
+if __name__ == "__main__":
+    unittest.main()
