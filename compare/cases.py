@@ -89,7 +89,7 @@ SCENES = {
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
     "ironing": ("body.block.mesh.cells=[12, 3]", "time.steps=1", "time.end=0.4"), "wedge": ("time.steps=4",),
-    "cubes": ("body.material.young=3e4", "time.steps=4"), "tilted": (), "glued": (),
+    "cubes": ("body.material.young=3e4", "time.steps=4"), "tilted": (), "bimetal": (),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}

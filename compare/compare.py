@@ -103,6 +103,7 @@ def compare(first, second, within=None):
     length = max(length, peak("displacement", first, second))
     stress = max(stress, peak("von_mises", first, second))
     force = max(force, peak("contact_force", first, second)/max(1, len(second.contact.force)))
+    extent = np.ptp(second.contact.position) if second.contact.position.size > 0 else length
     differences = []
     for what, scale, tolerance in (("displacement", length, DISPLACEMENT), ("stress", stress, STRESS)):
         for name in names:
@@ -116,8 +117,8 @@ def compare(first, second, within=None):
                                                                 force), FORCE))
     differences += [
         Difference("contact gap", relative(first.contact.gap, second.contact.gap, length), DISPLACEMENT),
-        Difference("contact position", relative(first.contact.position, second.contact.position,
-                                                np.ptp(second.contact.position)), POSITION),
+        Difference("contact position", relative(first.contact.position, second.contact.position, extent),
+                   POSITION),
     ]
     if first.contact.friction is not None and not chosen:
         differences.append(Difference("friction", relative(first.contact.friction, second.contact.friction,
@@ -131,7 +132,6 @@ def compare(first, second, within=None):
     if first.contact.position.shape[1] == 3:  # one point a cell of the refinement, the cut of which is free
         left_out |= {"interpenetration"}
     scalars = {key: value for key, value in first.scalars.items() if key not in left_out}
-    extent = np.ptp(second.contact.position)
     in_space = second.contact.position.shape[1] == 3
     differences += scalar_differences(scalars, second.scalars, length, stress, force,
                                       extent**2 if in_space else extent)
@@ -183,7 +183,7 @@ def quantity_differences(first, second, within=None):
 
 
 def relative(a, b, scale):
-    difference = float(np.abs(np.asarray(a) - np.asarray(b)).max())
+    difference = float(np.abs(np.asarray(a) - np.asarray(b)).max(initial=0))
     return difference / float(scale) if difference > 0 else difference
 
 

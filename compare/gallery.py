@@ -201,6 +201,17 @@ def ring_pressure(run):
     return np.sum(run.contact.force) / (np.pi / 2)
 
 
+def curvature(run):
+    """Of the strip between x = -2 and 2, by the parabola through its lower side."""
+    strip = run.bodies["lower"]
+    below = (strip.points[:, 1] == -0.5) & (np.abs(strip.points[:, 0]) < 2.01)
+    return -2 * np.polyfit(strip.points[below, 0], strip.displacement[below, 1], 2)[0]
+
+
+# Timoshenko, Journal of the Optical Society of America 11 (1925): strips of one thickness, 1 both, with moduli
+# as 2 to 1, and the difference of their expansions, 1e-3.
+BIMETAL = 24e-3 / (14 + 2 + 1/2)
+
 EXACT_STRESS = "the patch test holds to rounding"
 
 GALLERY = [
@@ -208,6 +219,8 @@ GALLERY = [
                           "half of the last digit of the value for 32 cells a side", "**{}**")], 0.3),
     Entry("stack", [Number("1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
                            EXACT_STRESS, "**{}**")], 300),
+    Entry("bimetal", [Number("curvature [1/m]", curvature, BIMETAL, 1e-6,
+                             "the ends are four thicknesses away", "**{}**")], 30),
     Entry("sloped", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1,
                             1e-10, EXACT_STRESS, "**{}**")], 300),
     Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])),

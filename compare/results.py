@@ -321,6 +321,8 @@ def read_csv(path):
 def read_table(path, *columns):
     """Numbers, one line an item, so many in a line."""
     try:
+        if os.stat(checked(path)).st_size == 0:
+            return np.empty((0, columns[0]))
         table = np.loadtxt(checked(path), ndmin=2)
     except (OSError, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error

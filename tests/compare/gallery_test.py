@@ -31,6 +31,7 @@ class Gallery(InFolder):
     def test_a_wrong_model_misses(self):
         wrong = {"ring": "body.plate.material.young=52", "hertz": "body.block.material.young=60000",
                  "broken-line": "contact.variant=interpolation", "stack": "contact.variant=interpolation",
+                 "bimetal": "body.upper.material.young=1e5",
                  "sloped": "contact.variant=interpolation", "turned": "contact.variant=interpolation",
                  "cut-ring": "body.lower.boundary.1.un=1e-5*t",
                  "cook": "body.panel.material.poisson=0.3", "exact-contact": "body.lower.material.young=1.1",

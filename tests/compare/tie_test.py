@@ -98,6 +98,37 @@ sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }
 """
 
 
+# A soft layer on a plate under a punch: contact above, a tie below.
+LAYER = """\
+plane = "strain"
+[[body]]
+name = "punch"
+mesh = { shape = "rectangle", lower = [0.6, 0.2], upper = [1.4, 0.6], cells = [11, 6] }
+material = { young = 2e5, poisson = 0.3 }
+boundary = [ { label = 3, ux = 0, ty = "-20*t" } ]
+[[body]]
+name = "layer"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 0.2], cells = [40, 4] }
+material = { young = 1e3, poisson = 0.4, viscosity = 50, yield_stress = 30 }
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [0, -0.5], upper = [2, 0], cells = [26, 7] }
+material = { young = 7e4, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[contact]]
+friction = 0.2
+nonmortar = { body = "layer", label = 3 }
+mortar = { body = "punch", label = 1 }
+[[contact]]
+kind = "tied"
+nonmortar = { body = "layer", label = 1 }
+mortar = { body = "plate", label = 3 }
+[time]
+end = 1
+steps = 4
+"""
+
+
 class Ties(InFolder):
     def solved(self, text, *options, code=0):
         self.write(text)
@@ -140,6 +171,12 @@ class Ties(InFolder):
             whole = self.values(self.solved(text(2, 8, ', { label = "top", tx = 1 }', "", "lower")))["corner"]
             cut = self.values(self.solved(text(1, 4, "", UPPER, "upper")))["corner"]
             self.assertLess(abs(cut/whole - 1), 0.04 if degree == 1 else 0.003)
+
+    def test_freefem_agrees_on_a_tie_beside_contact_with_friction(self):
+        self.write(LAYER)
+        for variant in ("mortar", "interpolation"):
+            with self.subTest(variant=variant):
+                self.mortier("compare", "scene.toml", "--set", f"contact.variant={variant}")
 
     def test_what_a_tie_refuses(self):
         self.write(HEAD)

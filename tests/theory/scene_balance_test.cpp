@@ -62,8 +62,7 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
   const Body& body = model.bodies[b];
   const Vector load = body.load(state.time);
   Wrench sum = wrenchOf(load, body);
-  size += load.cwiseAbs().sum() +
-          contactForces(model, forcesOf(state), b).cwiseAbs().sum();
+  size += load.cwiseAbs().sum() + contactForces(model, forcesOf(state), b).cwiseAbs().sum();
   std::set<int> held;
   for (const Condition& support : body.conditions().displacements)
     if (!body.rigid()) held.insert(support.label);
@@ -76,6 +75,9 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
   std::set<int> sides;
   for (const ContactInterface& interface : model.interfaces)
     for (const ContactSide& side : {interface.pair().nonmortar, interface.pair().mortar})
+      if (side.body == b) sides.insert(side.label);
+  for (const Tie& tie : model.ties)
+    for (const ContactSide& side : {tie.pair().nonmortar, tie.pair().mortar})
       if (side.body == b) sides.insert(side.label);
   for (const int label : sides) {
     const Wrench contact = quantityOf(model, state, Kind::contactForce, b, label);
