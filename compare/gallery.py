@@ -208,8 +208,8 @@ def curvature(run):
     return -2 * np.polyfit(strip.points[below, 0], strip.displacement[below, 1], 2)[0]
 
 
-# Timoshenko, Journal of the Optical Society of America 11 (1925): strips of one thickness, 1 both, with moduli
-# as 2 to 1, and the difference of their expansions, 1e-3.
+# Timoshenko, Journal of the Optical Society of America 11 (1925): strips of one thickness, 1 both, with
+# moduli as 2 to 1, and the difference of their expansions, 1e-3.
 BIMETAL = 24e-3 / (14 + 2 + 1/2)
 
 EXACT_STRESS = "the patch test holds to rounding"

@@ -20,8 +20,8 @@ inline InterfaceForces forcesOf(const State& state) {
   return {state.contactForce, state.frictionForce, state.tieForce};
 }
 
-/// C' p + T' t on a body (dofs), and the same of ties [N/m]: of all, or of those that have this label of it as
-/// a side.
+/// C' p + T' t on a body (dofs), and the same of ties [N/m]: of all, or of those that have this label of it
+/// as a side.
 Vector contactForces(const Model& model, const InterfaceForces& forces, int body,
                      std::optional<int> label = std::nullopt);
 

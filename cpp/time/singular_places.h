@@ -26,8 +26,8 @@ bool isSingular(double angle, SideSupport first, SideSupport second, double kapp
 /// the stress grows towards it.
 bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place);
 
-/// Whether contact that presses, or a tie, ends next to a place at a corner of one body, in space at an edge, while the
-/// other one continues, and the stress grows towards it: its pressure may be unbounded.
+/// Whether contact that presses, or a tie, ends next to a place at a corner of one body, in space at an edge,
+/// while the other one continues, and the stress grows towards it: its pressure may be unbounded.
 /// \param reach  how far next to a place is at least [m]
 bool contactEndsAt(const Model& model, const State& state, const SpacePoint& place, double reach = 0);
 
