@@ -6,8 +6,7 @@
 The rows are in bench/hard/rows.py, their scenes beside it; with words, only rows that have one of them.
 The verdict of a row is `within` its tolerance, `named` where the value is off and the program said so by
 itself (a warning, or the reason why it ended), or OFF. The other codes are those that are installed: FreeFEM
-(Debian package freefem++), GetFEM (python3-getfem), CalculiX (calculix-ccx), and Siconos
-(libsiconos-numerics-dev when mortier was built). Exit code 1 where a row is OFF.
+(Debian package freefem++), GetFEM (python3-getfem), CalculiX (calculix-ccx). Exit code 1 where a row is OFF.
 """
 import argparse
 import json
@@ -15,7 +14,6 @@ import os
 import sys
 import tempfile
 import time
-import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,37 +32,14 @@ codes.MORTIER = str(Path(codes.MORTIER).resolve())  # runs are in other folders
 NAMES = {"freefem": "FreeFEM", "getfem": "GetFEM", "calculix": "CalculiX"}
 
 
-def mesh_files(document, folder):
-    """Files in place of the tables of shapes: what other codes read. KEY=VALUE settings."""
-    settings = []
-    for body in document["body"]:
-        shape = dict(body["mesh"])
-        path = folder / f"{body['name']}.mesh"
-        options = []
-        for key, value in shape.items():
-            flat = isinstance(value, list) and isinstance(value[0], list)
-            words = [",".join(map(str, each)) if isinstance(each, list) else str(each)
-                     for each in (value if flat else [value])]
-            options += [] if key == "shape" else [f"--{key}", *words]
-        codes.measured([codes.MORTIER, "mesh", shape["shape"], *options, path])
-        settings.append(f"body.{body['name']}.mesh={path}")
-    return settings
-
-
 def peer(row, code):
     """The value of another code on the same meshes, or why there is none."""
-    document = tomllib.loads(row.scene.read_text())
     (settings,) = row.runs()
-    for setting in settings:
-        key, _, value = setting.partition("=")
-        scenes.change(document, key.split("."), scenes.value_of(value))
+    pairs = [setting.split("=", 1) for setting in settings]
+    case = Case((("code", code), *((key, scenes.value_of(text)) for key, text in pairs)))
     with tempfile.TemporaryDirectory(prefix="mortier-hard-") as name:
-        folder = Path(name)
         try:
-            kept = [setting for setting in settings if ".mesh." not in setting]
-            pairs = [setting.split("=", 1) for setting in kept + mesh_files(document, folder)]
-            case = Case((("code", code), *((key, scenes.value_of(text)) for key, text in pairs)))
-            return row.read(codes.run(case, row.scene, {}, folder / "run", timeout=300).run)
+            return row.read(codes.run(case, row.scene, {}, Path(name) / "run", timeout=300).run)
         except (RunFailure, KeyError) as failure:
             return str(failure).splitlines()[0]
 

@@ -1,16 +1,12 @@
-// The blocks of bench_separation as the published figures of other codes had them:
-//   gmsh -2 -algo front2d -format mesh -setnumber block B -setnumber Mesh.SaveElementTagType 2 \
-//     -o NAME.3d.mesh bench/separation.geo
-// with B, NAME = 1, separation-upper; 2, separation-lower; 3, patch-upper; 4, patch-lower; the awk script of
-// shared-meshes/README.md then drops the third coordinate.
+// The blocks of bench/peers as the published figures of other codes had them: 1 and 2 are those of the
+// separation, 3 and 4 those of the patch test.
 // Labels: 1 bottom, 2 right, 3 top, 4 left, 5 the loaded part of the top.
-If (!Exists(block))
-  block = 1;
-EndIf
+DefineConstant[ block = 1, coarser = 1 ];
+Mesh.Algorithm = 6;  // frontal
 width = (block == 2) ? 2 : 1;
 y = (block == 1 || block == 3) ? 0.5 : 0;
 edges = (block == 1) ? 230 : (block == 2) ? 320 : (block == 3) ? 200 : 283;
-h = width / edges;
+h = width / edges * coarser;
 Point(1) = {0, y, 0, h};
 Point(2) = {width, y, 0, h};
 Point(3) = {width, y + 0.5, 0, h};

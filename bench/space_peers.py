@@ -5,22 +5,23 @@ Each code reads the same vertices and tetrahedra; FreeFEM takes CHOLMOD, the fas
 that Debian's package has, GetFEM MUMPS, CalculiX SPOOLES. What contact in space costs beside it is not
 compared: FreeFEM and GetFEM have no contact of two surfaces by exact integrals, CalculiX a penalty.
 """
-import itertools
 import json
 import os
 import shutil
 import sys
 from pathlib import Path
 
+import meshio
 import numpy as np
 
+import results
 from drivers import require_getfem
 from problems import RunFailure
 from process import measured
 
 YOUNG, POISSON = 1000.0, 0.3
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-BOTTOM, TOP = 1, 2
+BOTTOM, TOP = 1, 3
 
 FREEFEM = """mesh3 Th = readmesh3("cube.mesh");
 fespace Vh(Th, [P23d, P23d, P23d]);
@@ -42,8 +43,8 @@ cout << "corner " << w(1, 1, 1) << endl;
 GETFEM = """import sys
 import getfem as gf
 import numpy as np
-names = "points", "tetrahedra", "top", "bottom"
-points, tetrahedra, top, bottom = (np.load(name + ".npy") for name in names)
+data = np.load("cube.npz")
+points, tetrahedra, top, bottom = (data[name] for name in ("points", "tetrahedra", "top", "bottom"))
 mesh = gf.Mesh("empty", 3)
 mesh.add_convex(gf.GeoTrans("GT_PK(3,1)"), np.ascontiguousarray(points[tetrahedra].transpose(2, 1, 0)))
 mesh.set_region(1, bottom)
@@ -67,19 +68,12 @@ print("corner", repr(float(model.variable("u")[corner])))
 
 
 class Cube:
-    """Vertices, tetrahedra and the triangles below and on top, by numbers from 0."""
+    """Vertices, tetrahedra and the triangles below and on top, by numbers from 0, of mortier's shape."""
 
-    def __init__(self, cells):
-        n = cells + 1
-        z, y, x = np.meshgrid(*3 * [np.arange(n)], indexing="ij")
-        self.points = np.column_stack([each.ravel() for each in (x, y, z)]) / cells
-        low = (np.arange(cells)[:, None, None] * n + np.arange(cells)[:, None]) * n + np.arange(cells)
-        tetrahedra = []
-        for order in itertools.permutations((1, n, n * n)):
-            path = np.cumsum((0, *order))
-            positive = order in ((1, n, n * n), (n, n * n, 1), (n * n, 1, n))
-            tetrahedra.append(low.ravel()[:, None] + path[[0, 1, 2, 3] if positive else [0, 2, 1, 3]])
-        self.tetrahedra = np.concatenate(tetrahedra)
+    def __init__(self, folder, mortier):
+        measured([mortier, "run", "scene.toml", "--quiet", "--out", "mesh", "--set", "degree=1"], cwd=folder)
+        body = results.read_vtu(folder / "mesh" / "cube_000001.vtu")
+        self.points, self.tetrahedra = body.points, body.tetrahedra
         # Face i is opposite to vertex i.
         self.faces = {}
         for label, height in ((BOTTOM, 0.0), (TOP, 1.0)):
@@ -87,18 +81,12 @@ class Cube:
             tetrahedron = np.flatnonzero(on.sum(1) == 3)
             self.faces[label] = (tetrahedron, np.argmin(on[tetrahedron], 1))
 
-    def triangles(self, label):
-        return np.array([np.delete(self.tetrahedra[t], i) for t, i in zip(*self.faces[label])])
-
     def write_medit(self, path):
-        lines = ["MeshVersionFormatted 2", "Dimension 3", f"Vertices {len(self.points)}"]
-        lines += [f"{x!r} {y!r} {z!r} 0" for x, y, z in self.points.tolist()]
-        lines += [f"Tetrahedra {len(self.tetrahedra)}"]
-        lines += [f"{a} {b} {c} {d} 0" for a, b, c, d in (self.tetrahedra + 1).tolist()]
-        triangles = [(*each, label) for label in (BOTTOM, TOP)
-                     for each in (self.triangles(label) + 1).tolist()]
-        lines += [f"Triangles {len(triangles)}"] + [f"{a} {b} {c} {label}" for a, b, c, label in triangles]
-        path.write_text("\n".join([*lines, "End"]) + "\n")
+        triangles = [np.delete(self.tetrahedra[t], i)
+                     for faces in self.faces.values() for t, i in zip(*faces)]
+        labels = [label for label, (tetrahedra, _) in self.faces.items() for _ in tetrahedra]
+        meshio.write_points_cells(path, self.points, [("tetra", self.tetrahedra), ("triangle", triangles)],
+                                  cell_data={"medit:ref": [np.zeros(len(self.tetrahedra), int), labels]})
 
     def with_middles(self):
         """Points and tetrahedra of ten nodes, the middles in the order of CalculiX."""
@@ -143,7 +131,7 @@ SCENE = f"""dimension = 3
 degree = 2
 [[body]]
 name = "cube"
-mesh = "cube.mesh"
+mesh = {{ shape = "cuboid", cells = CELLS }}
 material = {{ young = {YOUNG}, poisson = {POISSON} }}
 boundary = [ {{ label = {BOTTOM}, ux = 0, uy = 0, uz = 0 }}, {{ label = {TOP}, tz = "-(1 + x)" }} ]
 [[quantity]]
@@ -156,59 +144,41 @@ steps = 1
 """
 
 
-def corner_of(output):
-    words = output.split()
-    if "corner" not in words:
-        raise RunFailure(f"no result: {output[-200:]}")
-    return float(words[words.index("corner") + 1])
-
-
-def run_mortier(program, folder):
-    (folder / "scene.toml").write_text(SCENE)
-    cost, output = measured([program, "run", "scene.toml", "--quiet", "--threads", "1", "--out", "out"],
-                            cwd=folder, environment=ONE_THREAD)
-    summary = json.loads((folder / "out" / "summary.json").read_text())
-    return cost, summary["quantities"]["corner"]["value"]
-
-
-def run_freefem(program, folder):
+def require(program, package):
     if shutil.which(program) is None:
-        raise RunFailure(f"{program} is not installed (Debian package freefem++)")
-    (folder / "cube.edp").write_text(FREEFEM.format(young=YOUNG, poisson=POISSON, bottom=BOTTOM, top=TOP))
-    cost, output = measured([program, "-nw", "-ne", "-v", "0", "cube.edp"], cwd=folder,
-                            environment=ONE_THREAD)
-    return cost, corner_of(output)
-
-
-def run_getfem(folder, cube):
-    require_getfem()
-    np.save(folder / "points.npy", cube.points)
-    np.save(folder / "tetrahedra.npy", cube.tetrahedra)
-    for name, label in (("top", TOP), ("bottom", BOTTOM)):
-        np.save(folder / f"{name}.npy", np.array(cube.faces[label]))
-    (folder / "cube.py").write_text(GETFEM.format(young=YOUNG, poisson=POISSON))
-    cost, output = measured([sys.executable, "cube.py"], cwd=folder, environment=ONE_THREAD)
-    return cost, corner_of(output)
-
-
-def run_calculix(program, folder, cube):
-    if shutil.which(program) is None:
-        raise RunFailure("CalculiX is not installed (Debian package calculix-ccx)")
-    write_calculix(cube, folder / "cube.inp")
-    cost, _ = measured([program, "-i", "cube"], cwd=folder, environment=ONE_THREAD)
-    words = (folder / "cube.dat").read_text().split()
-    return cost, float(words[-1])
+        raise RunFailure(f"{program} is not installed (Debian package {package})")
+    return program
 
 
 def run(code, folder, cells, mortier):
     """The cost of a code and the displacement of the corner."""
+    def cost_of(*command):
+        return measured(command, cwd=folder, environment=ONE_THREAD)
+
     folder = Path(folder)
-    cube = Cube(cells)
-    cube.write_medit(folder / "cube.mesh")
+    (folder / "scene.toml").write_text(SCENE.replace("CELLS", str(cells)))
     if code == "mortier":
-        return run_mortier(mortier, folder)
+        cost, _ = cost_of(mortier, "run", "scene.toml", "--quiet", "--threads", "1", "--out", "out")
+        summary = json.loads((folder / "out" / "summary.json").read_text())
+        return cost, summary["quantities"]["corner"]["value"]
+    if code == "calculix":
+        program = require(os.environ.get("CCX", "ccx"), "calculix-ccx")
+        write_calculix(Cube(folder, mortier), folder / "cube.inp")
+        cost, _ = cost_of(program, "-i", "cube")
+        return cost, float((folder / "cube.dat").read_text().split()[-1])
     if code == "freefem":
-        return run_freefem(os.environ.get("FREEFEM", "FreeFem++"), folder)
-    if code == "getfem":
-        return run_getfem(folder, cube)
-    return run_calculix(os.environ.get("CCX", "ccx"), folder, cube)
+        program = require(os.environ.get("FREEFEM", "FreeFem++"), "freefem++")
+        Cube(folder, mortier).write_medit(folder / "cube.mesh")
+        (folder / "cube.edp").write_text(FREEFEM.format(young=YOUNG, poisson=POISSON, bottom=BOTTOM, top=TOP))
+        cost, output = cost_of(program, "-nw", "-ne", "-v", "0", "cube.edp")
+    else:
+        require_getfem()
+        cube = Cube(folder, mortier)
+        np.savez(folder / "cube.npz", points=cube.points, tetrahedra=cube.tetrahedra,
+                 top=cube.faces[TOP], bottom=cube.faces[BOTTOM])
+        (folder / "cube.py").write_text(GETFEM.format(young=YOUNG, poisson=POISSON))
+        cost, output = cost_of(sys.executable, "cube.py")
+    words = output.split()
+    if "corner" not in words:
+        raise RunFailure(f"no result: {output[-200:]}")
+    return cost, float(words[words.index("corner") + 1])

@@ -1,6 +1,7 @@
 """Both codes on a list of cases: a row each, printed as it is done.
 matrix.py and oracle.py say which cases."""
 import json
+import statistics
 import tempfile
 from pathlib import Path
 
@@ -28,35 +29,45 @@ def compare_runs(folder, settings, scene=COMPRESSION, within=None):
             "freefem_iterations": theirs.summary["newton_iterations"]}
 
 
-def compare_all(header, cases, row_of, text_of, keep=None):
-    """row_of(case, folder) is a dictionary, text_of(case, row) its line. Returns the rows."""
-    print(header, flush=True)
+def compare_all(cases, keep=None):
+    """Prints a row a case as it is done, then how much faster mortier is. Returns the rows."""
+    print(f"{cases[0].HEAD} {'displacement':>12} {'stress':>8} {'force':>8} {'gap':>8}  {'mortier[s]':>10} "
+          f"{'FreeFEM[s]':>10} {'ratio':>6}  verdict", flush=True)
     rows = []
     with tempfile.TemporaryDirectory(prefix="mortier-compare-") as temporary:
         for case in cases:
-            rows.append(row_of(case, Path(keep or temporary).resolve() / case.folder))
-            print(text_of(case, rows[-1]), flush=True)
+            folder = Path(keep or temporary).resolve() / case.folder
+            row = case.row | compare_runs(folder, case.settings, case.scene, case.within)
+            rows.append(row)
+            numbers = "" if "stress" not in row else (
+                f"{row['displacement']:>12.1e} {row['stress']:>8.1e} {row['force']:>8.1e} "
+                f"{row['gap']:>8.1e}  {row['mortier_s']:>10.2f} {row['freefem_s']:>10.2f} "
+                f"{row['ratio']:>6.1f}  ")
+            print(f"{case.line} {numbers}{row['verdict']}", flush=True)
+    for variant in dict.fromkeys(case.variant for case in cases):
+        ratios = [row["ratio"] for case, row in zip(cases, rows) if row["agree"] and case.variant == variant]
+        if ratios:
+            print(f"wall time FreeFEM/mortier, {variant}: {min(ratios):.1f} to {max(ratios):.1f}, "
+                  f"median {statistics.median(ratios):.1f}")
     print(f"{sum(row['agree'] for row in rows)} of {len(rows)} pairs of runs agree")
     return rows
 
 
-def add_options(parser):
+def main(text, cases, quick=None):
+    """The command; text: its help. quick: gives fewer cases. Exit code 1 when one pair differs or fails."""
+    parser = results.argument_parser(text)
+    if quick:
+        parser.add_argument("--quick", action="store_true", help="a subset that takes about a minute")
     parser.add_argument("--only", nargs="+", default=[], metavar="WORD",
                         help="cases that contain all of these words")
     parser.add_argument("--keep", metavar="DIR", help="keeps the run folders there")
     parser.add_argument("--json", metavar="FILE", help="writes the rows as JSON")
-
-
-def chosen(parser, arguments, cases):
-    """The cases that --only asks for."""
-    found = [case for case in cases if all(word in str(case).split() for word in arguments.only)]
+    given = parser.parse_args()
+    every = (quick if quick and given.quick else cases)()
+    found = [case for case in every if all(word in str(case).split() for word in given.only)]
     if not found:
-        parser.error(f"no case contains {' '.join(arguments.only)}; a case reads: {cases[0]}")
-    return found
-
-
-def finish(arguments, rows):
-    """Writes what --json asks for. Returns the exit code."""
-    if arguments.json:
-        Path(arguments.json).write_text(json.dumps(rows, indent=2) + "\n")
+        parser.error(f"no case contains {' '.join(given.only)}; a case reads: {every[0]}")
+    rows = compare_all(found, given.keep)
+    if given.json:
+        Path(given.json).write_text(json.dumps(rows, indent=2) + "\n")
     return 0 if all(row["agree"] for row in rows) else 1

@@ -2,7 +2,7 @@
 and the scenes."""
 import itertools
 import re
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 # name: nonmatching pairs, upper and lower; the third is unstructured, graded in opposite directions
 PAIRS = {
@@ -22,6 +22,17 @@ class Case:
     variant: str
     nonmortar: str
     steps: int
+    scene = "scenes/compression.toml"
+    within = None
+    HEAD = f"{'pair':<5} {'projection':<11} {'variant':<13} {'nonmortar':<9} {'steps':>5} "
+
+    @property
+    def row(self):
+        return asdict(self)
+
+    @property
+    def line(self):
+        return f"{self.pair:<5} {self.projection:<11} {self.variant:<13} {self.nonmortar:<9} {self.steps:>5} "
 
     def __str__(self):
         return f"{self.pair} {self.projection} {self.variant} nonmortar {self.nonmortar} N={self.steps}"
@@ -62,6 +73,15 @@ class SceneCase:
     variant: str
     what: str = "as it stands"  # what the settings change
     changes: tuple = ()
+    HEAD = f"{'scene':<15} {'variant':<13} {'what':<42}"
+
+    @property
+    def row(self):
+        return {"case": str(self)}
+
+    @property
+    def line(self):
+        return f"{self.name:<15} {self.variant:<13} {self.what:<42}"
 
     def __str__(self):
         return f"{self.name} {self.variant} {self.what}"

@@ -34,6 +34,8 @@ def require(*modules):
         except ImportError as error:
             raise Failure(
                 f"the Python module {module} is missing (Debian package python3-{module})") from error
+    if "matplotlib" in modules:
+        importlib.import_module("matplotlib").use("Agg")  # files are drawn, whatever the reader's screen
 
 
 def interrupt(*_):

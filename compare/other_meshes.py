@@ -1,8 +1,5 @@
 """Two results on meshes of their own: fields of one where the triangles (in space: tetrahedra) of the other
 have their middles."""
-import contextlib
-import io
-
 import numpy as np
 
 import results
@@ -92,10 +89,16 @@ def resultant_differences(first, second, within):
             for axis, a, b in zip("xyz", *pairs)]
 
 
+def volumes(corners):
+    """Of tetrahedra, n x 4 x 3; negative where they are turned back."""
+    (x1, y1, z1), (x2, y2, z2), (x3, y3, z3) = ((corners[:, i] - corners[:, 0]).T for i in (1, 2, 3))
+    return (x1 * (y2 * z3 - z2 * y3) + y1 * (z2 * x3 - x2 * z3) + z1 * (x2 * y3 - y2 * x3)) / 6
+
+
 def areas_of(corners):
     """Volumes in space."""
     if corners.shape[2] == 3:
-        return np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+        return np.abs(volumes(corners))
     (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     return np.abs(ax * by - ay * bx) / 2
 
@@ -170,15 +173,7 @@ def barycentric(corners, points):
 
 def read_vtu_of(path):
     """A body that another code wrote: displacements by vertex and, where there are any, stresses by cell."""
-    import meshio
-
-    results.checked(path, times=4)
-    try:
-        # it prints
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio ends the process on some faults
-        raise results.ResultError(f"{path}: cannot be read: {error!r}") from error
+    mesh = results.with_meshio(path)
     if "displacement" not in mesh.point_data:
         names = ", ".join(mesh.point_data) or "none"
         raise results.ResultError(f"{path}: point data {names}, expected displacement")

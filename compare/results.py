@@ -335,7 +335,8 @@ silenced = threading.Lock()  # the standard output is one for all threads
 CELLS = ("triangle", "triangle6", "tetra", "tetra10")
 
 
-def read_vtu(path):
+def with_meshio(path, use=lambda mesh: mesh):
+    """What use() makes of a mesh file."""
     import meshio  # slow to load, and FreeFEM's results do without
 
     checked(path, times=4)
@@ -344,6 +345,13 @@ def read_vtu(path):
         with silenced, contextlib.redirect_stdout(io.StringIO()), \
                 contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
+        return use(mesh)
+    except (Exception, SystemExit) as error:  # meshio ends the process on some faults
+        raise ResultError(f"{path}: cannot be read: {error!r}") from error
+
+
+def read_vtu(path):
+    def body_of(mesh):
         elements = next(mesh.cells_dict[kind] for kind in CELLS if kind in mesh.cells_dict)
         corners = 3 if elements.shape[1] in (3, 6) else 4
         cells = {name: values[0] for name, values in mesh.cell_data.items()}
@@ -361,8 +369,7 @@ def read_vtu(path):
             body.elements = elements
             body.stress_at_points = cells["stress_at_points"].reshape(len(elements), corners, -1)
         return body
-    except (Exception, SystemExit) as error:  # meshio ends the process on some faults
-        raise ResultError(f"{path}: cannot be read: {error!r}") from error
+    return with_meshio(path, body_of)
 
 
 def require_shape(folder, name, body, described, space):

@@ -1,9 +1,9 @@
 """Errors of a run: norms of fields against an exact solution or a finer run,
 relative to the size of the latter."""
 import numpy as np
-from matplotlib.tri import Triangulation
 
 from problems import RunFailure
+from other_meshes import barycentric, located  # problems.py says where it is
 
 # Dunavant's rule of degree 5: weights (sum 1) and barycentric points
 A, B = 0.059715871789770, 0.470142064105115
@@ -37,19 +37,9 @@ class Sampled:
 
     def __init__(self, run):
         self.bodies = run.bodies
-        self.finders = {}
 
     def triangles(self, name, points):
-        body = self.bodies[name]
-        if name not in self.finders:
-            self.finders[name] = Triangulation(*body.points.T, body.triangles).get_trifinder()
-        flat = points.reshape(-1, 2)
-        found = self.finders[name](*flat.T)
-        if outside := np.flatnonzero(found < 0).tolist():  # on the boundary but for rounding
-            centres = body.points[body.triangles].mean(1)
-            for i in outside:
-                found[i] = np.argmin(((centres - flat[i])**2).sum(1))
-        return found.reshape(points.shape[:-1])
+        return located(self.bodies[name], points.reshape(-1, 2), name)[0].reshape(points.shape[:-1])
 
     def stress(self, name, points):
         body, found = self.bodies[name], self.triangles(name, points)
@@ -66,7 +56,8 @@ class Sampled:
     def barycentric(self, name, points, found):
         """Of points in the triangles in which they are; in curved ones by Newton's method."""
         body = self.bodies[name]
-        at = self.by_corners(body, points, found)
+        corners = body.points[body.triangles[found]].reshape(-1, 3, 2)
+        at = barycentric(corners, points.reshape(-1, 2)).reshape(*points.shape[:-1], 3)
         if body.elements is None:
             return at
         nodes = body.points[body.elements[found]]
@@ -76,14 +67,6 @@ class Sampled:
             step = np.linalg.solve(tangents, miss[..., None])[..., 0]
             at = at + np.concatenate([step, -step.sum(-1, keepdims=True)], -1)
         return at
-
-    @staticmethod
-    def by_corners(body, points, found):
-        """The same where sides are straight."""
-        a, b, c = (body.points[body.triangles[found][..., i]] for i in range(3))
-        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points),
-                            cross(a - points, b - points)], -1)
-        return weights / cross(b - a, c - a)[..., None]
 
 
 def cross(a, b):

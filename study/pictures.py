@@ -1,14 +1,11 @@
 """Work-precision plots: error against wall time, memory and degrees of freedom, the Pareto front marked."""
 import io
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from analysis import distinguishing, front, order, slope  # noqa: E402
-from table import CLAIMS, COSTS  # noqa: E402
+from analysis import distinguishing, front, order, slope
+from table import CLAIMS, COSTS
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#555555", "#000000"]
 MARKERS = "osD^vP*X"

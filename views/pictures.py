@@ -3,21 +3,19 @@ import textwrap
 from dataclasses import dataclass
 
 import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.patheffects import withStroke
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.cm import ScalarMappable  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.colors import Normalize  # noqa: E402
-from matplotlib.patheffects import withStroke  # noqa: E402
-
-import contact_surface  # noqa: E402
-import shapes  # noqa: E402
-from columns import ROUNDING, labelled  # noqa: E402
-from ending import Wrong  # noqa: E402
-from recovery import averaged, averaged_von_mises  # noqa: E402
-from runs import extent, natural_scale, top_of  # noqa: E402
+import contact_surface
+import shapes
+from columns import ROUNDING, labelled
+from ending import Wrong
+from recovery import averaged, averaged_von_mises
+from runs import extent, natural_scale, top_of
 
 INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
 NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"

@@ -10,7 +10,7 @@ import contact_surface
 import results
 from contact_line import ContactLine
 from ending import Wrong, shown
-from surfaces import volumes
+from other_meshes import areas_of
 
 
 @dataclass
@@ -251,11 +251,7 @@ class Result:
 
 def areas(body):
     """Of the triangles as meshed; the volumes of tetrahedra."""
-    corners = body.points[body.simplices]
-    if body.tetrahedra is not None:
-        return np.abs(volumes(corners))
-    (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    return np.abs(x1 * y2 - x2 * y1) / 2
+    return areas_of(body.points[body.simplices])
 
 
 def top_of(field, bodies, values):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_line import boundary_sides, keys_of
+from other_meshes import volumes
 
 OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # sides of a tetrahedron, seen from outside
 MIDDLE = np.array([[0, 4, 6, 7], [4, 1, 5, 8], [6, 5, 2, 9], [7, 8, 9, 3]])  # node between two corners
@@ -27,12 +28,6 @@ def camera(azimuth, elevation):
     eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([-np.sin(a), np.cos(a), 0.0])
     return np.array([right, np.cross(eye, right), eye])
-
-
-def volumes(corners):
-    """Of tetrahedra, n x 4 x 3; negative where they are turned back."""
-    (x1, y1, z1), (x2, y2, z2), (x3, y3, z3) = ((corners[:, i] - corners[:, 0]).T for i in (1, 2, 3))
-    return (x1 * (y2 * z3 - z2 * y3) + y1 * (z2 * x3 - x2 * z3) + z1 * (x2 * y3 - y2 * x3)) / 6
 
 
 class Surface:

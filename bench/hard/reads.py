@@ -170,6 +170,36 @@ def dragged(run):
     return worst if steps else math.inf
 
 
+def zones(contact):
+    """Length of the zone that sticks and of that in contact; each ends half-way to the next node."""
+    order = np.argsort(contact.position[:, 0])
+    x = contact.position[order, 0]
+    ends = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
+    closed = contact.force[order] > 0
+    where = (np.flatnonzero(each) for each in (closed & (contact.slipping[order] == 0), closed))
+    return [float(ends[each[-1] + 1] - ends[each[0]]) if len(each) else 0.0 for each in where]
+
+
+def stuck_part(run):
+    """Of the contact, in the mean over the second half of the run."""
+    history, tables = results.read_history(run.folder), results.contact_tables(run.folder)
+    parts = [zones(tables[step]) for step, time in zip(history["step"], history["time[s]"]) if time > 0.5]
+    return float(np.mean([stuck / closed for stuck, closed in parts]))
+
+
+def off_stuck(run):
+    """The largest deviation [%] of the part that sticks from sqrt(1 - Q/(mu P)), on the way back from the
+    same of half of the reversed force; the first step presses, six push, mu is 0.3."""
+    worst, most = 0.0, 0.0
+    for step, contact in sorted(results.contact_tables(run.folder).items())[2:]:
+        part = contact.friction.sum() / (0.3 * contact.force.sum())
+        most = part if step <= 7 else most
+        stuck, closed = zones(contact)
+        exact = math.sqrt(1 - abs(part if step <= 7 else (most - part) / 2))
+        worst = max(worst, abs(stuck / closed / exact - 1))
+    return 100 * worst
+
+
 def iterations(run):
     """Linear solves of the worst step."""
     return float(results.read_history(run.folder)["iterations"].max())

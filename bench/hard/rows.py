@@ -1,11 +1,12 @@
-"""The rows of bench/hard.py (compare/known.py says what a row is)."""
+"""The rows of bench/hard.py (known.py says what a row is)."""
 import math
 from pathlib import Path
 
 from known import Row, located
 from reads import (curved_motion, curved_pressure, dragged, growth, half_width, inner_motion, iterations,
-                   number, off_cone, off_fit, off_hertz, off_punch, off_ring, off_stress, off_tube, order,
-                   peak, quantity, radius_of_contact, shell_motion, shell_pressure, total, unloading)
+                   number, off_cone, off_fit, off_hertz, off_punch, off_ring, off_stress, off_stuck, off_tube,
+                   order, peak, quantity, radius_of_contact, shell_motion, shell_pressure, stuck_part, total,
+                   unloading)
 
 
 def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, **more):
@@ -232,11 +233,10 @@ def other_rows():
               "growth of the linear solves from 100 to 800 nodes", "growing.toml", lines, growth, within=0.25)
     yield Row("Shallow ironing", "slips are finite: out of the model", "the run ends", "ironing.toml", (),
               total, named="contact-slides|past the end")
-    yield Row("Rough punch", "Spence 1975: c/a 0.680", "c/a", command=(
-        "bench/rough_punch.py", "--cells", "40", "--width", "100", "--tolerance", "0.1", "--equal", "1"),
-        read=number(r"tolerance = .*c/a ([\d.]+)"), exact=0.680, within=0.02, published=True)
-    yield Row("Half planes pushed along", "Cattaneo, Mindlin", "stick zones, worst of 10 forces [%]",
-              command=("bench/stick_zone.py",), read=number(r"worst ([\d.]+) %"), within=1, published=True)
+    yield Row("Rough punch", "Spence 1975: c/a 0.680", "c/a", "rough.toml", (), stuck_part, 0.680,
+              within=0.02, published=True)
+    yield Row("Half planes pushed along", "Cattaneo, Mindlin", "stick zones, worst of 11 forces [%]",
+              "stick.toml", (), off_stuck, within=1, published=True)
     yield Row("Steps that stall elsewhere", "limits of the certificate (tests/theory/hard_cases.h)",
               "cases beyond the limits", command=("build/bench/hard_cases", "--fast"),
               read=number(r"(\d+) cases beyond"))
@@ -244,8 +244,6 @@ def other_rows():
               "stabilised, least of ratios 1.1 to 8, degrees 1 and 2", command=(
                   "build/tests/unit_tests", "--gtest_filter=PressureCompliance.keepsTheInfSupConstant"),
               read=number(r"inf-sup constant ([\d.e+-]+)", min), exact=0.1, within=0.1, at_least=True)
-    yield Row("Friction in Siconos", "fc2d_lexicolemke", "largest difference of forces, one solution",
-              command=("build/bench/siconos",), read=number(r"largest difference ([\d.e+-]+)"), within=1e-9)
 
 
 ROWS = located(Path(__file__).parent, [

@@ -27,7 +27,7 @@ def solve(problem):
     if problem.variant == "interpolation":
         raise RunFailure("contact by interpolation cannot be expressed (face-to-face penalty only)")
     young = max(body.young for body in problem.bodies.values())
-    load = largest_load(problem)
+    load = problem.largest_load()
     thickness = float(np.mean([np.sqrt(body.mesh.areas().mean()) for body in problem.bodies.values()]))
     first, count = {}, 0
     for name, body in problem.bodies.items():
@@ -48,12 +48,6 @@ def solve(problem):
     iterations = output.count("iteration ")
     return displacements, stresses, {"iterations": iterations, "wall_time": cost.wall_time,
                                      "processor_time": cost.processor_time, "memory": cost.memory}
-
-
-def largest_load(problem):
-    return max((np.abs(value(*body.mesh.points[body.mesh.nodes_of(label)].T, problem.end)).max()
-                for body in problem.bodies.values() for label, _, value in body.tractions),
-               default=1.0) or 1.0
 
 
 def write_input(problem, first, count, thickness, young, load):

@@ -105,6 +105,11 @@ class Problem:
         self.end, self.steps = float(document["time"]["end"]), int(document["time"]["steps"])
         self.flows = any(body.viscosity for body in self.bodies.values())
 
+    def largest_load(self):
+        return max((np.abs(value(*body.mesh.points[body.mesh.nodes_of(label)].T, self.end)).max()
+                    for body in self.bodies.values() for label, _, value in body.tractions),
+                   default=1.0) or 1.0
+
     def contact_of(self, displacements, stresses):
         """Vertex, position, gap and nodal force of the nonmortar nodes; forces from equilibrium there."""
         body, other = self.bodies[self.nonmortar], self.bodies[self.mortar]

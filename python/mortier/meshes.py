@@ -71,8 +71,8 @@ def numbered(values: Any, of: str) -> tuple[Any, Names]:
 
 def of_meshio(mesh: meshio.Mesh, of: str) -> tuple[Mesh, Names]:
     """Its triangles and the lines that have a label. InputError: no triangles."""
-    triangles, regions = cells_of(mesh, "triangle")
-    edges, labels = cells_of(mesh, "line")
+    triangles, regions = marked(mesh, "triangle")
+    edges, labels = marked(mesh, "line")
     if not len(triangles):
         kinds = ", ".join(sorted({block.type for block in mesh.cells}))
         raise InputError(f"{of}: cells {kinds or 'none'}, expected triangles")
@@ -90,7 +90,7 @@ def of_meshio(mesh: meshio.Mesh, of: str) -> tuple[Mesh, Names]:
     return Mesh(mesh.points, triangles, edges[known], labels[known], regions), names
 
 
-def cells_of(mesh: meshio.Mesh, kind: str) -> tuple[Any, Any]:
+def marked(mesh: meshio.Mesh, kind: str) -> tuple[Any, Any]:
     """Corners of the cells of a kind, linear or quadratic, and their references (0 without)."""
     corners = 3 if kind == "triangle" else 2
     kinds = (kind, kind + ("6" if kind == "triangle" else "3"))
@@ -126,6 +126,13 @@ def sides_of(triangles: Any) -> Iterator[list[int]]:
         yield from np.sort(triangles[:, [k, (k + 1) % 3]], axis=1).tolist()
 
 
+def cells_of(step: _core.Step, name: str) -> dict[str, Any]:
+    """What a body has by triangle or tetrahedron, by the names of the files."""
+    return {"stress": step.stress[name], "von_mises": step.von_mises[name],
+            "viscoplastic_strain": step.viscoplastic_strain[name], "viscoplastic": step.viscoplastic[name],
+            "region": step.regions[name], "error": step.error[name]}
+
+
 def to_meshio(step: _core.Step) -> dict[str, meshio.Mesh]:
     """Body -> mesh, with displacements by point and all else by triangle or tetrahedron."""
     import meshio
@@ -133,12 +140,8 @@ def to_meshio(step: _core.Step) -> dict[str, meshio.Mesh]:
     meshes = {}
     for name, points in step.points.items():
         elements = (step.tetrahedra if points.shape[1] == 3 else step.triangles)[name]
-        cells = {"stress": step.stress[name], "von_mises": step.von_mises[name],
-                 "viscoplastic_strain": step.viscoplastic_strain[name],
-                 "viscoplastic": step.viscoplastic[name], "region": step.regions[name],
-                 "error": step.error[name]}
         kind = {3: "triangle", 6: "triangle6", 4: "tetra", 10: "tetra10"}[elements.shape[1]]
         meshes[name] = meshio.Mesh(points, [(kind, elements)],
                                    point_data={"displacement": step.displacement[name]},
-                                   cell_data={key: [values] for key, values in cells.items()})
+                                   cell_data={key: [of] for key, of in cells_of(step, name).items()})
     return meshes

@@ -7,13 +7,12 @@ import sys
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
-from unittest import mock
 
-import matplotlib
 import numpy as np
 
 from mortier import _core
 from mortier.errors import InputError
+from mortier.meshes import cells_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,7 +44,7 @@ def figure(run: Run, kind: str, step: _core.Step, field: str, scale: float | Non
 @functools.cache
 def views() -> dict[str, ModuleType]:
     """The modules of views/ by name. They import each other as scripts do: that their names do not stand
-    for modules of the user's, they are taken away again; the backend stays that of the user."""
+    for modules of the user's, they are taken away again."""
     here = Path(__file__).resolve().parent
     home = next((folder for base in (here, *here.parents) for folder in (base, base / "share" / "mortier")
                  if (folder / "views" / "pictures.py").is_file()
@@ -58,8 +57,7 @@ def views() -> dict[str, ModuleType]:
     path, theirs = list(sys.path), {name: sys.modules.pop(name) for name in names & set(sys.modules)}
     sys.path[:0] = map(str, folders)
     try:
-        with mock.patch.object(matplotlib, "use"):
-            return {name: importlib.import_module(name) for name in ("pictures", "curves", "runs", "results")}
+        return {name: importlib.import_module(name) for name in ("pictures", "curves", "runs", "results")}
     finally:
         sys.path[:] = path
         for name in names & set(sys.modules):
@@ -75,15 +73,11 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
                          run._solution.history)
     bodies = {}
     for name in step.points:
-        cells = {"stress": step.stress[name], "von_mises": step.von_mises[name],
-                 "viscoplastic_strain": step.viscoplastic_strain[name],
-                 "viscoplastic": step.viscoplastic[name], "region": step.regions[name],
-                 "error": step.error[name]}
         axes = step.points[name].shape[1]
         kind = "tetrahedra" if axes == 3 else "triangles"
         elements = getattr(step, kind)[name]
         bodies[name] = results.Body(step.displacement[name], step.stress[name], step.points[name],
-                                    cells=cells, **{kind: elements[:, :axes + 1]})
+                                    cells=cells_of(step, name), **{kind: elements[:, :axes + 1]})
         if elements.shape[1] > axes + 1:
             bodies[name].elements = elements
             bodies[name].stress_at_points = step.stress_at_points[name]

@@ -5,7 +5,7 @@ import copyreg
 import json
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import make_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -20,78 +20,35 @@ FIELDS = ("points", "regions", "displacement", "stress", "stress_at_points", "vo
 NODAL = ("vertex", "gap", "force", "pressure", "friction", "shear", "slip", "slipping")
 
 
-@dataclass
-class StoredContact:
-    """As _core.Contact."""
-
-    nonmortar: str
-    mortar: str
-    position: Any
-    vertex: Any
-    gap: Any
-    force: Any
-    pressure: Any
-    friction: Any
-    shear: Any
-    slip: Any
-    slipping: Any
+def record(name: str, *fields: str) -> Any:
+    """A class with these members, as the one of _core."""
+    return make_dataclass(name, fields, namespace={"__module__": __name__})
 
 
-@dataclass
-class StoredStep:
-    """As _core.Step."""
-
-    number: int
-    time: float
-    values: dict[str, Any]
-    points: dict[str, Any]
-    regions: dict[str, Any]
-    displacement: dict[str, Any]
-    stress: dict[str, Any]
-    stress_at_points: dict[str, Any]
-    von_mises: dict[str, Any]
-    viscoplastic_strain: dict[str, Any]
-    viscoplastic: dict[str, Any]
-    error: dict[str, Any]
-    contact: list[StoredContact]
-    triangles: dict[str, Any] = field(default_factory=dict)  # none in space
-    tetrahedra: dict[str, Any] = field(default_factory=dict)  # none in the plane
-
-
-@dataclass
-class StoredSolution:
-    """As _core.Solution."""
-
-    steps: list[StoredStep]
-    history: dict[str, Any]
-    summary: str
-    folder: str
-    code: int = 0
-    reason: str = ""
+StoredContact = record("StoredContact", "nonmortar", "mortar", "position", *NODAL)
+StoredStep = record("StoredStep", "number", "time", "values", *FIELDS, "contact", "triangles", "tetrahedra")
+StoredSolution = record("StoredSolution", "steps", "history", "summary", "folder", "code", "reason")
 
 
 def copied(arrays: dict[str, Any]) -> dict[str, Any]:
     return {name: np.array(array) for name, array in arrays.items()}
 
 
-def contact_of(side: Any) -> StoredContact:
+def contact_of(side: Any) -> Any:
     return StoredContact(side.nonmortar, side.mortar, np.array(side.position),
                          *(np.array(getattr(side, name)) for name in NODAL))
 
 
-def step_of(step: Any) -> StoredStep:
-    fields: Any = {name: copied(getattr(step, name)) for name in FIELDS}
-    kind = "tetrahedra" if in_space(step) else "triangles"
-    return StoredStep(step.number, step.time, dict(step.values), **fields,
-                      contact=[contact_of(side) for side in step.contact],
-                      **{kind: copied(getattr(step, kind))})
+def step_of(step: Any) -> Any:
+    """In space there are no triangles, in the plane no tetrahedra."""
+    space = any(points.shape[1] == 3 for points in step.points.values())
+    return StoredStep(step.number, step.time, dict(step.values),
+                      *(copied(getattr(step, name)) for name in FIELDS),
+                      [contact_of(side) for side in step.contact],
+                      {} if space else copied(step.triangles), copied(step.tetrahedra) if space else {})
 
 
-def in_space(step: Any) -> bool:
-    return any(points.shape[1] == 3 for points in step.points.values())
-
-
-def solution_of(solution: Any) -> StoredSolution:
+def solution_of(solution: Any) -> Any:
     history = {name: list(column) if isinstance(column, list) else np.array(column)
                for name, column in solution.history.items()}
     return StoredSolution([step_of(step) for step in solution.steps], history, solution.summary,
@@ -118,7 +75,7 @@ def open_result(folder: str | os.PathLike[str]) -> Run:
     return Run(read(folder))
 
 
-def read(folder: str | os.PathLike[str]) -> StoredSolution:
+def read(folder: str | os.PathLike[str]) -> Any:
     from mortier.pictures import views
     results = views()["results"]
     place = Path(folder)
@@ -137,30 +94,28 @@ def read(folder: str | os.PathLike[str]) -> StoredSolution:
     return StoredSolution(steps, history, json.dumps(summary), str(place), code, summary.get("reason", ""))
 
 
-def step_at(run: Any, history: dict[str, Any], number: int, time: float) -> StoredStep:
+def step_at(run: Any, history: dict[str, Any], number: int, time: float) -> Any:
     """run: results.Run."""
-    bodies = run.bodies
-    space = any(body.tetrahedra is not None for body in bodies.values())
+    def of(values: Callable[[Any], Any]) -> dict[str, Any]:
+        return {name: values(body) for name, body in run.bodies.items()}
 
     def cells(name: str) -> dict[str, Any]:
-        return {body: each.cells[name] for body, each in bodies.items()}
+        return of(lambda body: body.cells[name])
 
-    at_points = {name: each.stress[:, None] if each.stress_at_points is None else each.stress_at_points
-                 for name, each in bodies.items()}
+    space = any(body.tetrahedra is not None for body in run.bodies.values())
+    elements = of(lambda body: body.simplices if body.elements is None else body.elements)
     row = next((i for i, each in enumerate(history["step"]) if each == number), None)
     return StoredStep(
         number, time, {} if row is None else {bare(name): column[row] for name, column in history.items()},
-        {name: each.points for name, each in bodies.items()},
-        cells("region"), {name: each.displacement for name, each in bodies.items()},
-        {name: each.stress for name, each in bodies.items()}, at_points,
-        cells("von_mises"), cells("viscoplastic_strain"), cells("viscoplastic"), cells("error"),
+        of(lambda body: body.points), cells("region"),
+        of(lambda body: body.displacement), of(lambda body: body.stress),
+        of(lambda body: body.stress[:, None] if body.stress_at_points is None else body.stress_at_points),
+        *map(cells, FIELDS[5:]),
         [side_of(run.contact, index, each) for index, each in enumerate(run.summary["interfaces"])],
-        **{"tetrahedra" if space else "triangles":
-           {name: each.simplices if each.elements is None else each.elements
-            for name, each in bodies.items()}})
+        {} if space else elements, elements if space else {})
 
 
-def side_of(contact: Any, index: int, interface: dict[str, str]) -> StoredContact:
+def side_of(contact: Any, index: int, interface: dict[str, str]) -> Any:
     """The rows of one interface of results.Contact; what it has no column of is 0."""
     rows = contact.interface == index
     columns = {name: getattr(contact, name) for name in NODAL}

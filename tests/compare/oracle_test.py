@@ -6,11 +6,10 @@ import unittest
 from pathlib import Path
 
 import support
-from both import compare_runs
+from both import compare_all, compare_runs
 from cases import SCENES, UNKNOWN_TO_FREEFEM, SceneCase, scene_cases
 from codes import RunError, run_freefem, run_mortier
 from compare import compare
-from oracle import compare_scenes
 from shape_scenes import GEOMETRY_KEYS, PARTS_GEO
 
 COMPRESSION = SceneCase("compression", "interpolation", changes=(
@@ -20,7 +19,7 @@ COMPRESSION = SceneCase("compression", "interpolation", changes=(
 
 class Oracle(unittest.TestCase):
     def test_codes_agree(self):
-        for row in compare_scenes(scene_cases()):
+        for row in compare_all(scene_cases()):
             with self.subTest(row["case"]):
                 self.assertTrue(row["agree"], row["verdict"])
 

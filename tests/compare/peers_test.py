@@ -16,7 +16,6 @@ import calculix_code
 import drivers
 import peer
 import scene
-from perzyna import project
 from plan import Case
 
 STRESS_ERROR = {("mortier", "mortar"): 1e-12, ("FreeFEM", "mortar"): 1e-12, ("GetFEM", "mortar"): 1e-3,
@@ -126,21 +125,6 @@ class Drivers(InFolder):
         stress = body.elastic_stress(strain)
         c = 3e11 / (1 - 0.09)
         np.testing.assert_allclose(stress[0], [c * (2 - 1.2), c * (0.6 - 4), 3e11 / 2.6 * 8], rtol=1e-10)
-
-    def test_projection_and_its_derivative(self):
-        b = np.array([0.3, 1.5, 1.5])
-        s = np.random.default_rng(1).normal(size=(20, 3)) * 3
-        over, derivative = project(s, b, 1.0)
-        P = s - over
-        beyond = (np.array([0.5, 1.5, 1.5]) * s**2).sum(1) > 1
-        np.testing.assert_allclose((np.array([0.5, 1.5, 1.5]) * P**2).sum(1)[beyond], 1, rtol=1e-12)
-        np.testing.assert_array_equal(over[~beyond], 0)
-        h = 1e-6
-        for k in range(3):
-            step = h * np.eye(3)[k]
-            numeric = ((s + step - project(s + step, b, 1.0)[0])
-                       - (s - step - project(s - step, b, 1.0)[0])) / (2 * h)
-            np.testing.assert_allclose(derivative[:, :, k], numeric, atol=1e-7)
 
     def test_input_of_calculix(self):
         mesh = self.problem().bodies["upper"].mesh

@@ -1,13 +1,9 @@
 """Errors of quantities as they are estimated on one mesh, against those on meshes of four times the cells."""
 import re
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
-
-import quantity_errors as scenes  # noqa: E402
-from support import InFolder  # noqa: E402
+import quantity_scenes as scenes
+from support import InFolder
 
 
 class QuantityErrors(InFolder):

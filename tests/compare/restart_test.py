@@ -8,9 +8,9 @@ import time
 import unittest
 from pathlib import Path
 
+import accuracies
 from mutations import require_whole
 from support import HANGS, PROGRAM, ROOT, InFolder, mortier
-import accuracies  # behind support: it is in compare/
 
 SCENE = str(ROOT / "scenes/compression.toml")
 STEPS = 60

@@ -3,15 +3,11 @@ estimated errors; what is refused."""
 import csv
 import json
 import math
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
-
-import space_quantities as scenes  # noqa: E402
-from scenes import TWO_BLOCKS  # noqa: E402
-from support import InFolder  # noqa: E402
+import space_quantity_scenes as scenes
+from scenes import TWO_BLOCKS
+from support import InFolder
 
 
 def moments(kind, body, label, about):

@@ -7,11 +7,10 @@ from unittest import mock
 
 import numpy as np
 
-from support import InSharedFolder, mortier
+from support import PROGRAM, ROOT, InSharedFolder, mortier
 from views_support import view
 from surfaces import Buffer, Seen, Surface, camera
 import contact_surface
-import known
 import pictures
 import results
 import runs
@@ -226,7 +225,7 @@ class SpaceViews(InSharedFolder):
         self.assertIn("--window", self.see("plot", "cubes", "--window=1,0,0,1", code=2))
         self.assertIn("s23", self.see("plot", "cubes", "--field", "s21", code=2))
         self.assertIn("--view", self.see("plot", "cubes", "--view=1000,2", code=2))
-        plane = mortier("run", known.ROOT / "scenes/compression.toml", "--quiet", "--out", "plane", "--set",
+        plane = mortier("run", ROOT / "scenes/compression.toml", "--quiet", "--out", "plane", "--set",
                         "time.steps=1", cwd=self.folder)
         self.assertEqual(plane.returncode, 0)
         self.assertIn("--view", self.see("plot", "plane", "--view=10,20", code=2))
@@ -269,7 +268,7 @@ class SpaceViews(InSharedFolder):
 
     def test_compare_with_a_result_on_the_same_and_on_other_meshes(self):
         settings = [f"--set={each}" for each in SOFT]
-        with mock.patch("codes.MORTIER", known.MORTIER):
+        with mock.patch("codes.MORTIER", PROGRAM):
             self.assertIn("agrees", self.see("compare", "cubes.toml", *settings, "--against=cubes"))
             self.assertIn("--within", self.see("compare", "cubes.toml", *settings, "--against=finer", code=2))
             told = self.see("compare", "cubes.toml", *settings, "--against=finer", "--within=1e-6")

@@ -296,7 +296,6 @@ HARD = {
     "shallow ironing": ["Shallow ironing"],
     "rough punch (Spence)": ["Rough punch", "Half planes pushed along"],
     "steps that stall": ["Steps that stall elsewhere"],
-    "contact problems with friction in Siconos": ["Friction in Siconos"],
 }
 
 

@@ -1,13 +1,8 @@
-"""The accuracy that a run promises against the true error, from far better solutions of the same scenes
-(bench/accuracy.py has all of them); and what quadratic displacements are worth where bodies flow."""
-import sys
+"""The accuracy that a run promises against the true error, from far better solutions of the same scenes; and
+what quadratic displacements are worth where bodies flow."""
 import unittest
-from pathlib import Path
 
-from support import ROOT
-
-sys.path.insert(0, str(Path(ROOT) / "compare"))
-import accuracies  # noqa: E402
+import accuracies
 
 LEAST, MOST = 0.9, 1.3  # estimate over true error
 

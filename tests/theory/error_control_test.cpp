@@ -122,8 +122,7 @@ TEST(ErrorControl, unitsDoNotChangeTheSteps) {
 
 // ---- loads of many kinds
 
-// bench/time_control.cpp has all of them; here those that take little time, the stress uniform and the error
-// exact.
+// Those that take little time, the stress uniform and the error exact.
 TEST(ErrorControl, theToleranceIsTheErrorOfEveryStepUnderLoadsOfManyKinds) {
   for (const timecases::Case& each : timecases::cases(timecases::Size::small)) {
     if (each.coupling != CouplingKind::mortar || each.young > 1e6) continue;

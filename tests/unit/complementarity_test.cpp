@@ -230,7 +230,7 @@ TEST(Complementarity, dependentConditionsAreSolved) {
 }
 
 // Lines with many nodes under loads of all wave lengths, where changing all wrong signs at once goes round.
-// Of thousands of patterns the worst takes 8 factorisations (bench/contact_pivoting.cpp).
+// Of thousands of patterns the worst takes 8 factorisations (docs/measurements.md).
 TEST(Complementarity, anyLoadOnManyNodesTakesTheWorkOfAFewFactorisations) {
   constexpr int n = 160;
   constexpr int patternsOfALine = 60;

@@ -1,19 +1,8 @@
-#!/usr/bin/python3
-"""Estimated over true errors of quantities on one mesh; true is the difference from the value on
-meshes of 4 times the cells. The table of docs/measurements.md.
-
-    bench/quantity_errors.py [--factor 1] [--degree 1] [--only PART]
-"""
-import argparse
+"""Scenes in the plane and about an axis whose quantities have errors that are estimated: each of the factor
+of its cells."""
 import json
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "compare"))
-import codes  # noqa: E402
+from support import ROOT, mortier
 
 STEP = "[time]\nend = 1\nsteps = 1\n"
 STEEL = "material = { young = 1, poisson = 0.3 }\n"
@@ -89,7 +78,7 @@ def pressed(upper, lower, top, contact_label=1):
 
 
 def known_end(f):
-    text = (ROOT / "scenes/exact-contact.toml").read_text()
+    text = (ROOT / "scenes" / "exact-contact.toml").read_text()
     text = text.replace('mesh = "../shared-meshes/exact-upper.mesh"\n',
                         rectangle([-0.9, 0], [1.1, 1], [7 * f, 4 * f]))
     text = text.replace('mesh = "../shared-meshes/exact-lower.mesh"\n',
@@ -110,14 +99,6 @@ def hertz(f):
             + quantity("mean", "mean_pressure", "disc", ", label = 1, from = [-0.5, 0], to = [0.5, 0]")
             + STEP)
 
-
-def sphere(f):
-    return ('plane = "axisymmetric"\n'
-            + body("ball", f'mesh = {{ shape = "quarterdisc", radius = 10, core = 2, cells = {6 * f} }}\n',
-                   STEEL, '{ label = 2, uy = "-0.1*t" }')
-            + body("block", rectangle([0, -12], [12, 0], [8 * f, 8 * f], ', cut = "both", focus = [0, 0], '
-                                      'grading = [8, 8]'), STEEL, "{ label = 1, uy = 0 }")
-            + contact("ball", 1, "block", 3) + pressed("ball", "block", 2) + STEP)
 
 
 def tool(f):
@@ -188,63 +169,9 @@ def creeping_beam(f):
         'law = "norton", reference_stress = 1, reference_rate = 1e-2, exponent = 4')
 
 
-def indented(f):
-    return (body("disc", half_disc(8 * f),
-                 "material = { young = 1e3, poisson = 0.3 }\n", '{ label = 2, ux = 0, uy = "-0.1*t" }')
-            + body("block", rectangle([-12, -12], [12, 0], [16 * f, 8 * f], ', cut = "both", focus = [0, 0], '
-                                      'grading = [8, 8]'),
-                   "material = { young = 1e3, poisson = 0.3, viscosity = 100, yield_stress = 5 }\n",
-                   "{ label = 1, ux = 0, uy = 0 }")
-            + contact("disc", 1, "block", 3) + pressed("disc", "block", 2)
-            + quantity("sinks", "displacement", "block", ", point = [0, 0]", "y")
-            + "[time]\nend = 1\nsteps = 10\n")
-
-
-SCENES = {each.__name__: each for each in (
-    patch, lame, cantilever, known_end, hertz, sphere, tool, pushed_tool, punch, rough,
-    creeping_tube, flowing_beam, creeping_beam, indented)}
-
-
 def run(text, folder, name):
-    scene = folder / f"{name}.toml"
-    scene.write_text(text if "[check]" in text else text + ALLOW)
-    done = subprocess.run([str(codes.MORTIER), "run", str(scene), "--out", str(folder / name), "--quiet"],
-                          capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{name}: {done.stderr.strip()}")
+    """The quantities of a run."""
+    (folder / f"{name}.toml").write_text(text if "[check]" in text else text + ALLOW)
+    done = mortier("run", folder / f"{name}.toml", "--out", folder / name, "--quiet")
+    assert done.returncode == 0, f"{name}: {done.stderr.strip()}"
     return json.loads((folder / name / "summary.json").read_text())["quantities"]
-
-
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--factor", type=int, default=1)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--degree", type=int, default=0)
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for degree in ([options.degree] if options.degree else [1, 2]):
-            for scene, make in SCENES.items():
-                if options.only not in scene:
-                    continue
-                head = f"degree = {degree}\n"
-                try:
-                    coarse = run(head + make(options.factor), folder, f"{scene}-{degree}-coarse")
-                    fine = run(head + make(4 * options.factor), folder, f"{scene}-{degree}-fine")
-                except RuntimeError as error:
-                    print(error)
-                    continue
-                for quantity_name, each in coarse.items():
-                    value, exact = each["value"], fine[quantity_name]["value"]
-                    true = abs(value - exact)
-                    found = each.get("estimated_error")
-                    ratio = ""
-                    if found is not None:
-                        ratio = f"{found / true:8.3g}" if true > 1e-9 * abs(exact) else "exact"
-                    print(f"{scene:14} {degree} {quantity_name:14} {value:12.5g} {exact:12.5g} true "
-                          f"{true / max(abs(exact), 1e-300):8.2g} estimate/true {ratio:8} "
-                          f"{each.get('no_estimate', '')}", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -15,7 +15,7 @@ import numpy as np
 
 import results
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 MORTIER = Path(os.environ.get("MORTIER", ROOT / "build" / "mortier")).resolve()  # runs are in other folders
 
 
