@@ -98,6 +98,7 @@ void refuseBesideTies(const TableReader& table, const SceneDescription& scene) {
     if (found) table.reject("kind", "unilateral: " + what + " does not support ties, remove one of them");
   };
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
+  refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
   refuse(scene.accuracy.bound, "accuracy.bound");
 }
 

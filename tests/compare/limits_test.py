@@ -60,6 +60,8 @@ ROWS = {
     "`friction`, `shear_limit`": ("contact.friction=0.3",),
     "rigid tools": TOOL,
     '`sliding = "finite"`': ("contact.sliding=finite",),
+    '`kind = "tied"`': ('contact.kind="tied"', "body.upper.boundary=[{label=3, ty=-1}]",
+                       "body.lower.boundary=[{label=1, ux=0, uy=0}]"),
     "`gap` that changes in time": ("contact.gap=-1e-4*t",),
     '`variant = "interpolation"`': ("contact.variant=interpolation",),
     '`scheme = "crank-nicolson"`': ("time.scheme=crank-nicolson",),
@@ -71,6 +73,7 @@ ROWS = {
 }
 IN_SPACE = {"`elasticity` with axes": (AXES % ", shear13=300, shear23=300",),
             "curved contact lines": (),  # spheres: scenes/shells.toml
+            '`kind = "tied"`': ('contact.kind="tied"',),
             '`volume = "averaged"`': ("body.volume=averaged",)}
 COLUMNS = {
     "`accuracy.bound`": ("accuracy.bound=true",),
