@@ -18,6 +18,12 @@ namespace {
 /// Nodes of a line element or a triangle, and of what is behind it, with values of their shape functions.
 using NodeValues = std::vector<std::pair<int, double>>;
 
+/// Of the mortar side at a point.
+struct Opposite {
+  int element = 0;  ///< behind it
+  NodeValues values;
+};
+
 /// Points that are apart by less than this part of the size of an element are one.
 constexpr double together = 1e-12;
 
@@ -92,6 +98,10 @@ struct Tie::Jumps {
   Triplets nonmortar, mortar;
   std::map<int, double> lengths;            ///< int chi, by rows
   std::map<int, std::set<int>> neighbours;  ///< rows on one element
+  // Of the points.
+  std::array<Triplets, 2> traces;
+  std::vector<std::array<int, 2>> elements;
+  std::vector<double> weights, sizes;
 
   int row(int node, int part) {
     return rowOf.try_emplace({node, part}, static_cast<int>(rowOf.size())).first->second;
@@ -100,6 +110,21 @@ struct Tie::Jumps {
     for (const auto& [node, value] : own) nonmortar.emplace_back(row, node, weight * value);
     for (const auto& [node, value] : across) mortar.emplace_back(row, node, -weight * value);
     lengths[row] += weight;
+  }
+  void addPoint(const NodeValues& own, const Opposite& opposite, int element, double weight, double size) {
+    const auto number = static_cast<int>(elements.size());
+    for (const auto& [node, value] : own) traces[0].emplace_back(number, node, value);
+    for (const auto& [node, value] : opposite.values) traces[1].emplace_back(number, node, -value);
+    elements.push_back({element, opposite.element});
+    weights.push_back(weight);
+    sizes.push_back(size);
+  }
+  [[nodiscard]] TiePoints points(int nodes1, int nodes2) const {
+    const auto count = static_cast<Eigen::Index>(elements.size());
+    return {{assembled(count, nodes1, traces[0]), assembled(count, nodes2, traces[1])},
+            elements,
+            Eigen::Map<const Vector>(weights.data(), count),
+            Eigen::Map<const Vector>(sizes.data(), count)};
   }
   void join(const std::vector<int>& rows) {
     for (const int row : rows) neighbours[row].insert(rows.begin(), rows.end());
@@ -114,6 +139,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
   const MortarLine across(mortar);
   const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
+  const BehindSides ownBehind(nonmortarMesh.mesh, pair.nonmortar.label);
+  const bool atNodes = pair.coupling == CouplingKind::interpolation;
   Jumps jumps;
   double length = 0;
   for (size_t number = 0; number < parts.size(); ++number) {
@@ -132,8 +159,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
     const auto mortarTrace = [&](const Segment& segment, const FacingPair& facing) {
       const int a = across.nodes[segment.mortar];
       const int b = across.nodes[segment.mortar + 1];
-      const auto triangle = static_cast<size_t>(behind.of(std::array{a, b}));
-      const std::span nodes(mortarMesh.nodes.of(triangle),
+      const int triangle = behind.of(std::array{a, b});
+      const std::span nodes(mortarMesh.nodes.of(static_cast<size_t>(triangle)),
                             static_cast<size_t>(mortarMesh.nodes.perTriangle()));
       const double xi = facing.psi[1] + (facing.psi.size() > 2 ? facing.psi[2] / 2 : 0);
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -143,7 +170,7 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
       for (Eigen::Index k = 0; k < own.size(); ++k)
         x += facing.phi[k] * nonmortarMesh.nodes.places[part.number(own[k])];
       distance_ = std::max(distance_, std::abs(facing.distance));
-      return extended<2>(nodes, placesOf<2>(mortarMesh.nodes, nodes), at, x);
+      return Opposite{triangle, extended<2>(nodes, placesOf<2>(mortarMesh.nodes, nodes), at, x)};
     };
     std::vector<int> rowOf;
     for (const int node : functions.nodes())
@@ -155,13 +182,10 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
       return all;
     };
     for (int e = 0; e < part.elements(); ++e) jumps.join(rowsAt(functions.at(e)));
-    if (pair.coupling == CouplingKind::interpolation) {
-      for (size_t i = 0; i < rowOf.size(); ++i) {
-        const int node = functions.nodes()[i];
-        const auto [facing, place] = refinement.facingOfNode(node);
-        jumps.add(rowOf[i], 1, {{part.number(node), 1}}, mortarTrace(place, facing));
-      }
-      continue;
+    for (size_t i = 0; atNodes && i < rowOf.size(); ++i) {
+      const int node = functions.nodes()[i];
+      const auto [facing, place] = refinement.facingOfNode(node);
+      jumps.add(rowOf[i], 1, {{part.number(node), 1}}, mortarTrace(place, facing).values);
     }
     atLobattoPoints(
         refinement, functions,
@@ -170,10 +194,13 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
           const double xi = part.partAt(segment.nonmortar, s);
           const double depth = options.axisymmetric ? circumference(part.at(segment.nonmortar, xi)) : 1;
           const NodeValues own = ownTrace(segment.nonmortar, facing.phi);
-          const NodeValues opposite = mortarTrace(segment, facing);
-          for (Eigen::Index i = 0; i < rows.size(); ++i)
-            if (rows[i] >= 0)
-              jumps.add(rowOf[rows[i]], weight * facing.stretch * depth * chi[i], own, opposite);
+          const Opposite opposite = mortarTrace(segment, facing);
+          const int e = segment.nonmortar;
+          const double ds = weight * facing.stretch * depth;
+          jumps.addPoint(own, opposite, ownBehind.of(std::array{part.nodes[e], part.nodes[e + 1]}), ds,
+                         part.s[e + 1] - part.s[e]);
+          for (Eigen::Index i = 0; i < rows.size() && !atNodes; ++i)
+            if (rows[i] >= 0) jumps.add(rowOf[rows[i]], ds * chi[i], own, opposite.values);
         });
   }
   if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
@@ -190,16 +217,18 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
   const TriangleTree tree(mortar);
   SurfaceRefinement refinement(nonmortar, mortar, tree);
   const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
+  const BehindSides ownBehind(nonmortarMesh.mesh, pair.nonmortar.label);
   const auto& vertices = nonmortarMesh.nodes.places;
   const auto mortarTrace = [&](int triangle, const Eigen::Vector3d& mu, const SpacePoint& x) {
     const auto& corners = mortar.triangles[triangle];
-    const auto element = static_cast<size_t>(behind.of(std::array{corners[0], corners[1], corners[2]}));
-    const std::span nodes(mortarMesh.nodes.of(element), static_cast<size_t>(mortarMesh.nodes.perElement()));
+    const int element = behind.of(std::array{corners[0], corners[1], corners[2]});
+    const std::span nodes(mortarMesh.nodes.of(static_cast<size_t>(element)),
+                          static_cast<size_t>(mortarMesh.nodes.perElement()));
     Eigen::Vector4d at = Eigen::Vector4d::Zero();
     for (int k = 0; k < 4; ++k)
       for (int c = 0; c < 3; ++c)
         if (nodes[k] == corners[c]) at[k] = mu[c];
-    return extended<3>(nodes, placesOf<3>(mortarMesh.nodes, nodes), at, x);
+    return Opposite{element, extended<3>(nodes, placesOf<3>(mortarMesh.nodes, nodes), at, x)};
   };
   Jumps jumps;
   const bool atNodes = pair.coupling == CouplingKind::interpolation;
@@ -217,7 +246,8 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
   for (const auto& [key, hit] : hits) {
     const int node = key.first;
     distance_ = std::max(distance_, std::abs(hit.delta));
-    jumps.add(jumps.row(node, key.second), 1, {{node, 1}}, mortarTrace(hit.triangle, hit.mu, vertices[node]));
+    jumps.add(jumps.row(node, key.second), 1, {{node, 1}},
+              mortarTrace(hit.triangle, hit.mu, vertices[node]).values);
   }
   double covered = 0;
   for (const FacingTriangles& each : refinement.facing) {
@@ -231,6 +261,7 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
       for (const auto& [row, part] : corners[k]->rows) rows.push_back(row);
     }
     jumps.join(rows);
+    const int element = ownBehind.of(std::array{nodes[0], nodes[1], nodes[2]});
     for (size_t last = 2; last < each.polygon.size(); ++last) {
       const Point& p0 = each.polygon[0];
       const Point e1 = each.polygon[last - 1] - p0;
@@ -239,7 +270,6 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
       if (!(area > 0)) continue;
       covered += area;
       for (const auto& [at, weight] : radonSeven) {
-        if (atNodes) break;
         const Point l = p0 + at[1] * e1 + at[2] * e2;
         const Eigen::Vector3d b(1 - l.sum(), l.x(), l.y());
         NodeValues own;
@@ -248,10 +278,11 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
         const SpacePoint place = b[0] * x[0] + b[1] * x[1] + b[2] * x[2];
         const Eigen::Vector3d mu = each.at(l);
         distance_ = std::max(distance_, std::abs(mu.dot(each.delta)));
-        const NodeValues opposite = mortarTrace(each.mortar, mu, place);
-        for (int k = 0; k < 3; ++k)
+        const Opposite opposite = mortarTrace(each.mortar, mu, place);
+        jumps.addPoint(own, opposite, element, weight * area, std::sqrt(twiceArea));
+        for (int k = 0; k < 3 && !atNodes; ++k)
           for (const auto& [row, part] : corners[k]->rows)
-            jumps.add(row, weight * area * b[k] * part, own, opposite);
+            jumps.add(row, weight * area * b[k] * part, own, opposite.values);
       }
     }
   }
@@ -260,7 +291,20 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
   setRows(jumps, options, nonmortarMesh.nodes.count(), mortarMesh.nodes.count());
 }
 
+Matrix TiePoints::jump(const Vector& uNonmortar, const Vector& uMortar, int dimension) const {
+  Matrix result = Matrix::Zero(dimension, weights.size());
+  const auto add = [&](const Eigen::SparseMatrix<double>& trace, const Vector& u) {
+    forEachEntry(trace, [&](int point, int node, double value) {
+      result.col(point) += value * u.segment(static_cast<Eigen::Index>(dimension) * node, dimension);
+    });
+  };
+  add(traces[0], uNonmortar);
+  add(traces[1], uMortar);
+  return result;
+}
+
 void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int nodes2) {
+  points_ = jumps.points(nodes1, nodes2);
   const auto count = static_cast<Eigen::Index>(jumps.rowOf.size());
   Vector scale(count);
   for (Eigen::Index i = 0; i < count; ++i) scale[i] = 1 / jumps.lengths.at(static_cast<int>(i));

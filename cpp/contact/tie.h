@@ -18,6 +18,7 @@
 // motions. Interpolation has no such row.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -34,6 +35,17 @@ struct TieOptions {
   /// Directions of the rows of a node, as rows; the axes where empty.
   std::function<Eigen::Matrix3d(int node)> frame = {};
   bool axisymmetric = false;  ///< whether integrals are over the whole ring
+};
+
+/// Points of the common refinement of both sides.
+struct TiePoints {
+  std::array<Eigen::SparseMatrix<double>, 2> traces;  ///< points x nodes of both bodies: of u1(x1) - u2(x1)
+  std::vector<std::array<int, 2>> elements;           ///< behind the sides, of both bodies
+  Vector weights;                                     ///< ds [m], in space [m^2], of rings [m^2]
+  Vector sizes;                                       ///< an edge of the nonmortar side [m]
+
+  /// Dimensions x points [m]. \param uNonmortar, uMortar  by dofs
+  [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar, int dimension) const;
 };
 
 class Tie {
@@ -58,6 +70,8 @@ class Tie {
   /// The largest drawn distance of points that face each other [m].
   [[nodiscard]] double distance() const { return distance_; }
 
+  [[nodiscard]] const TiePoints& points() const { return points_; }
+
   /// C u: the jump by rows; displacements by dofs of the two bodies [m].
   [[nodiscard]] Vector jump(const Vector& uNonmortar, const Vector& uMortar) const {
     return C1_ * uNonmortar + C2_ * uMortar;
@@ -76,6 +90,7 @@ class Tie {
   int dimension_ = 2;
   ConstraintRows C1_, C2_;
   std::vector<int> nodes_;
+  TiePoints points_;
   double overlap_ = 0;
   double distance_ = 0;
 };

@@ -110,8 +110,26 @@ std::vector<ErrorEstimate> MeshErrorEstimator::operator()(const State& state, Th
       addSurfaceGaps(k, state, estimates);
     else
       addGaps(k, state, estimates);
+  addTies(state, estimates);
   if (!space) addData(state, estimates);
   return estimates;
+}
+
+void MeshErrorEstimator::addTies(const State& state, std::vector<ErrorEstimate>& estimates) const {
+  for (const Tie& tie : model_.ties) {
+    const int nonmortar = tie.pair().nonmortar.body;
+    const int mortar = tie.pair().mortar.body;
+    const TiePoints& points = tie.points();
+    const Matrix jump =
+        points.jump(state.bodies[nonmortar].displacement, state.bodies[mortar].displacement, tie.dimension());
+    for (Eigen::Index i = 0; i < jump.cols(); ++i) {
+      const auto& [own, opposite] = points.elements[i];
+      const Compliance compliance =
+          complianceOf(state, nonmortar, own) + complianceOf(state, mortar, opposite);
+      estimates[nonmortar].error[own] += compliance.elastic / (compliance.all * compliance.all) *
+                                         points.weights[i] * jump.col(i).squaredNorm() / points.sizes[i];
+    }
+  }
 }
 
 /// The square of a state that is moved by a small part of the field: what it differs by is twice the product.
