@@ -141,15 +141,15 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   std::vector<Response>& response = local.response;
   StepError carried;
   if (!before.empty()) {
-    carried = taker.carried(before);
+    carried = taker.carried(before, own.slip.slip);
     addTo(response, carried.response);
   }
   for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried.strain[b];
   if (!missed.slip.empty()) size += sizeOf(taker, missed);
   const std::vector<Matrix> flowed = std::exchange(missed.strain, {});
+  if (!missed.slip.empty()) addTo(response, taker.response(flowed, missed.slip));
   addTo(own.slip, 1, missed);
   addTo(own.strain, 1, flowed);
-  if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
   if (hasFriction_) carrySlip(taker, taker.slipOf(response));
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);

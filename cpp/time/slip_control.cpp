@@ -16,9 +16,12 @@ double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
 }
 
 /// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
-/// show. What they do show that one misses 2^(p+1) times.
+/// show. What they do show that one misses 2^(p+1) times. A node that closes in the pair, and sticks, has
+/// slipped in its first step or not at all: slips are compared with what it slips before it closes, and that
+/// is what the step misses.
 void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
   addTo(missed, 1, taker.slip());
+  addTo(missed, 2, {taker.slipBeforeClosing(), 0, {}});
   addTo(missed.strain, 1 - std::exp2(taker.errorOrder() - 1), of.local.strain);
 }
 
@@ -43,6 +46,7 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
     step.outcome = taker.attempt(end, effort);
     if (!step.outcome.converged() || step.outcome.method == SolutionMethod::rest) return step;
     addTo(step.missed, -1, taker.slip());
+    addTo(step.missed, -1, {taker.slipBeforeClosing(), 0, {}});
     step.t1 = t0 + (end - t0) / 2;
     step.beginsPair = true;
   }

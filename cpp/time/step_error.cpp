@@ -100,7 +100,8 @@ std::vector<Matrix> StepTaker::flowOf(const std::vector<Matrix>& strain,
   return flow;
 }
 
-std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matrix>>& strains) {
+std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matrix>>& strains,
+                                             const std::vector<Vector>& slip) {
   std::vector<std::vector<Matrix>> flows;  // k J_j ds_j
   std::vector<Matrix> error;
   for (size_t i = 0; i < tableau_.stages.size(); ++i) {
@@ -108,7 +109,7 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
     std::vector<Matrix> shift = strains[i];
     for (size_t j = 0; j < stage.before.size(); ++j)
       for (size_t b = 0; b < shift.size(); ++b) shift[b] += stage.before[j] * flows[j][b];
-    reached_ = response(shift);
+    reached_ = response(shift, slip);
     error = flowOf(shift, reached_);
     if (i + 1 == tableau_.stages.size()) break;
     std::vector<Matrix> flow = error;
@@ -130,8 +131,8 @@ void StepTaker::onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const 
 
 /// Displacement and stress of the strain that throughStages() found. Its elastic response is exact for one
 /// stage. Of two stages what relaxes within the step is wrong in it, and taken from lag() instead.
-StepError StepTaker::atEnd(std::vector<Matrix> strain) {
-  std::vector<Response> at = tableau_.stages.size() == 1 ? std::move(reached_) : response(strain);
+StepError StepTaker::atEnd(std::vector<Matrix> strain, const std::vector<Vector>& slip) {
+  std::vector<Response> at = tableau_.stages.size() == 1 ? std::move(reached_) : response(strain, slip);
   return {std::move(strain), std::move(at)};
 }
 
@@ -183,8 +184,8 @@ StepError StepTaker::localError() {
   return error;
 }
 
-StepError StepTaker::carried(const std::vector<Matrix>& strain) {
-  return atEnd(throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain)));
+StepError StepTaker::carried(const std::vector<Matrix>& strain, const std::vector<Vector>& slip) {
+  return atEnd(throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain), slip), slip);
 }
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,

@@ -31,6 +31,49 @@ SlipAndWork StepTaker::slip() const {
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
 }
 
+/// The first stage, where it is before, shows how gaps close and nodes slip; else the step before does.
+std::vector<Vector> StepTaker::slipBeforeClosing() const {
+  const Iterate& end = solutions_.back();
+  std::vector<Vector> result;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    result.emplace_back(Vector::Zero(interface.hasFriction() ? interface.rows() : 0));
+    if (!interface.hasFriction() || interface.follows()) continue;
+    const auto [nonmortar, mortar, coupling] = interface.pair();
+    struct Motion {
+      double time = 0;
+      Vector closing = {}, slip = {};
+    };
+    const auto motion = [&](double from, double to, const TwoPartVector& u1, const TwoPartVector& u2) {
+      Motion made{to - from, interface.jump(u1.value(), u2.value()), interface.slip(u1.value(), u2.value())};
+      if (interface.distanceMoves()) made.closing -= interface.distance(to) - interface.distance(from);
+      return made;
+    };
+    Motion before;
+    if (!memory_.increments.empty()) {
+      const std::vector<BodyIncrement>& last = memory_.increments.back();
+      before = motion(state_.time - memory_.timeStep, state_.time, last[nonmortar.body].displacement,
+                      last[mortar.body].displacement);
+    }
+    Motion within;
+    if (solutions_.size() > 1) {
+      const std::vector<BodyIterate>& bodies = solutions_.front().bodies;
+      within = motion(state_.time, state_.time + tableau_.stages.front().time * (t1_ - state_.time),
+                      bodies[nonmortar.body].increment, bodies[mortar.body].increment);
+    }
+    for (Eigen::Index i = 0; i < result[k].size(); ++i) {
+      const double open = -state_.gap[k][i];
+      const bool closes = state_.contactForce[k][i] <= 0 && open > 0 && end.contactForce[k][i] > 0;
+      if (!closes || end.slipping[k][i] != 0) continue;
+      const bool later = solutions_.size() > 1 && solutions_.front().contactForce[k][i] <= 0;
+      const Motion& shown = later ? within : before;
+      if (!(shown.time > 0) || !(shown.closing[i] > 0)) continue;
+      result[k][i] = std::min(open / shown.closing[i], (t1_ - state_.time) / shown.time) * shown.slip[i];
+    }
+  }
+  return result;
+}
+
 double StepTaker::workAlong(const std::vector<Vector>& slip) const {
   double work = 0;
   for (const Vector& each : frictionWork(frictionAtSlip_, solutions_.back(), slip, slip)) work += each.sum();

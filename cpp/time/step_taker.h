@@ -44,8 +44,9 @@ class StepTaker {
   [[nodiscard]] bool guarded() const { return guarded_; }
   /// The error that the last attempt makes on its way from the state (step_error.cpp).
   StepError localError();
-  /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
-  StepError carried(const std::vector<Matrix>& strain);
+  /// What an error of the viscoplastic strain at the start of the attempt, and of the slip of the nodes that
+  /// stick, has become at its end: the stress of that slip relaxes.
+  StepError carried(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
   /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
   /// Whether any contact opens, closes, sticks or slips there that did not in the state.
@@ -58,6 +59,9 @@ class StepTaker {
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
   /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
+  /// What nodes that close in the last attempt, and stick at its end, slip before they close: the attempt
+  /// holds them where it begins.
+  [[nodiscard]] std::vector<Vector> slipBeforeClosing() const;
   /// What the friction of the last attempt dissipates more where its nodes slip so much more [J/m].
   [[nodiscard]] double workAlong(const std::vector<Vector>& slip) const;
   /// The slip that such a response has, per interface.
@@ -131,13 +135,14 @@ class StepTaker {
   /// G of a solved stage, `weight` its time step times its diagonal coefficient [s].
   [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& stage, double weight) const;
   /// What the step makes of strains given at its stages.
-  std::vector<Matrix> throughStages(const std::vector<std::vector<Matrix>>& strains);
+  std::vector<Matrix> throughStages(const std::vector<std::vector<Matrix>>& strains,
+                                    const std::vector<Vector>& slip = {});
   [[nodiscard]] std::vector<Matrix> flowOf(const std::vector<Matrix>& strain,
                                            const std::vector<Response>& response) const;
   [[nodiscard]] std::vector<Matrix> defects(size_t body, const std::vector<Matrix>& rates) const;
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
-  StepError atEnd(std::vector<Matrix> strain);
+  StepError atEnd(std::vector<Matrix> strain, const std::vector<Vector>& slip = {});
   [[nodiscard]] Matrix strainAtTangent(size_t body, const Matrix& strain) const;
   void onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const;
   void addLag(const Fields& rates, std::vector<Response>& response);

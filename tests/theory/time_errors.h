@@ -188,7 +188,8 @@ inline std::shared_ptr<const Material> materialOf(const Case& of, Random& random
 }
 
 /// \param recloses  bodies are moved to and fro, so that contact opens and closes again
-inline Case randomCase(unsigned seed, bool recloses = false) {
+/// \param part  of the data that acts
+inline Case randomCase(unsigned seed, bool recloses = false, double part = 1) {
   Random random(seed * 7919 + 13);
   for (int i = 0; i < 5; ++i) (void)random.engine();
   Case of;
@@ -213,7 +214,9 @@ inline Case randomCase(unsigned seed, bool recloses = false) {
   // What flows at that rate of strain has that overstress; less than that is elastic. sinh grows too fast
   // for more.
   const double strain = stress * std::max(1 / of.stiffness, own ? 0 : 1 / (3 * of.viscosity));
-  of.size = of.drive == Drive::traction ? stress : of.drive == Drive::temperature ? strain : 2 * strain;
+  of.size = part * (of.drive == Drive::traction      ? stress
+                    : of.drive == Drive::temperature ? strain
+                                                     : 2 * strain);
   const auto datum = [f = of.shape.value, size = of.size, place = of.place, across,
                       pressed = of.drive == Drive::traction](double x, double, double t) {
     const double where = place == 1   ? (x < 0.5 ? 1.0 : 0.2)
