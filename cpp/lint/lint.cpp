@@ -263,9 +263,29 @@ void lintSurfaces(const SceneDescription& scene, const Model& model, Faults& fau
   }
 }
 
+void lintTies(const SceneDescription& scene, const Model& model, Faults& faults) {
+  constexpr double tiny = 0.25;
+  constexpr double large = 0.5;
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const Body& one = model.bodies[tie.pair().nonmortar.body];
+    const Body& other = model.bodies[tie.pair().mortar.body];
+    const double smaller = std::min(one.extent(), other.extent());
+    if (tie.overlap() < tiny)
+      faults.add("contact-overlap", scene.ties[k].where,
+                 "the tie covers " + digits(tie.overlap(), 2) + " of the side of body " + one.name());
+    if (tie.distance() > large * smaller)
+      faults.add("gap-large", scene.ties[k].where,
+                 "the sides of the tie are up to " + digits(tie.distance(), 4) + " " + scene.units.length +
+                     " apart, the smaller body is " + digits(smaller, 4) + " " + scene.units.length +
+                     " wide");
+  }
+}
+
 }  // namespace
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
+  lintTies(scene, model, faults);
   if (scene.inSpace()) lintSurfaces(scene, model, faults);
   if (!scene.inSpace()) lintData(scene, model, faults);
   for (size_t b = 0; b < model.bodies.size() && !scene.inSpace(); ++b)

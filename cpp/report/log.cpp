@@ -82,9 +82,14 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   }
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
-    text += formatted("tie        %s, %zu nonmortar nodes (%s) on %s, overlap %.3f\n", facts.ties[k].c_str(),
-                      tie.nonmortarNodes().size(), model.bodies[tie.pair().nonmortar.body].name().c_str(),
-                      model.bodies[tie.pair().mortar.body].name().c_str(), tie.overlap());
+    const Body& nonmortar = model.bodies[tie.pair().nonmortar.body];
+    constexpr double noticeable = 1e-6;
+    const bool apart = tie.distance() > noticeable * nonmortar.extent();
+    text += formatted(
+        "tie        %s, %zu nonmortar nodes (%s) on %s, overlap %.3f%s\n", facts.ties[k].c_str(),
+        tie.nonmortarNodes().size(), nonmortar.name().c_str(),
+        model.bodies[tie.pair().mortar.body].name().c_str(), tie.overlap(),
+        apart ? formatted("; apart by up to %.3g ", tie.distance()).append(facts.units.length).c_str() : "");
   }
   return text;
 }

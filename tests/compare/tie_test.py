@@ -192,6 +192,16 @@ class Ties(InFolder):
                 self.assertIn(message, done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1)
 
+    def test_check_names_ties_that_are_far_apart_or_cover_little(self):
+        self.write(HEAD.replace("lower = [0, 1]", "lower = [1.7, 1.8]").replace("upper = [2, 1.5]",
+                                                                               "upper = [2.5, 2.5]"))
+        told = self.mortier("check", "scene.toml").stdout
+        self.assertIn("the tie covers 0.15 of the side of body block [contact-overlap]", told)
+        self.assertIn("the sides of the tie are up to 0.8 m apart, the smaller body is 0.8 m wide [gap-large]",
+                      told)
+        self.write(HEAD)
+        self.assertIn("0 errors, 0 warnings", self.mortier("check", "scene.toml").stdout)
+
     def test_tied_bodies_that_nothing_holds_are_told(self):
         self.write(RINGS.replace("DEGREE", "1").replace("CELLS", "8, 3").replace("OTHERS", "11, 4")
                    .replace("VARIANT", "").replace(", { label = 3, uy = 0 }", "")
