@@ -196,9 +196,8 @@ class Ties(InFolder):
         self.write(HEAD.replace("lower = [0, 1]", "lower = [1.7, 1.8]").replace("upper = [2, 1.5]",
                                                                                "upper = [2.5, 2.5]"))
         told = self.mortier("check", "scene.toml").stdout
-        self.assertIn("the tie covers 0.15 of the side of body block [contact-overlap]", told)
-        self.assertIn("the sides of the tie are up to 0.8 m apart, the smaller body is 0.8 m wide [gap-large]",
-                      told)
+        self.assertRegex(told, r"the tie covers 0\.15 of the side of body block; .*\[contact-overlap\]")
+        self.assertRegex(told, r"the sides of the tie are up to 0\.8 m apart, .*\[gap-large\]")
         self.write(HEAD)
         self.assertIn("0 errors, 0 warnings", self.mortier("check", "scene.toml").stdout)
 
