@@ -66,6 +66,7 @@ uy = 0
 label = 2
 tx = "exp(-y^2)*min(t, 0.3)"
 [[contact]]
+kind = "unilateral"
 nonmortar = { body = "lower", label = 3 }
 mortar = { body = "upper", label = 1 }
 variant = "interpolation"
