@@ -220,7 +220,7 @@ GALLERY = [
     Entry("stack", [Number("1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
                            EXACT_STRESS, "**{}**")], 300),
     Entry("bimetal", [Number("curvature [1/m]", curvature, BIMETAL, 1e-6,
-                             "the ends are four thicknesses away", "**{}**")], 30),
+                             "the ends are four thicknesses away")], 30),
     Entry("sloped", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1,
                             1e-10, EXACT_STRESS, "**{}**")], 300),
     Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])),
