@@ -182,6 +182,7 @@ DIFFERENT = {
                                   "label=1}]}]"),
     "contact.sides.label": refused("label = 9", "contact=[{sides=[{body='upper', label=1}, {body='lower', "
                                    "label=9}]}]"),
+    "contact.kind": either("contact.kind", "unilateral", "tied"),
     "contact.variant": either("contact.variant", "weighted", "interpolation"),
     "contact.stabilised": either("contact.stabilised", "true", "false"),
     "contact.swap": either("contact.swap", "true", "false"),
