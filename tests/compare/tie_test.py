@@ -1,6 +1,7 @@
 """Ties: parts that are cut and tied against whole ones and exact solutions, tools that move a tied side, what
 a tie refuses."""
 import json
+import math
 import unittest
 
 from support import InFolder
@@ -154,6 +155,26 @@ class Ties(InFolder):
                 self.assertLess(errors[2], errors[1]/2**order*1.1)
                 self.assertLess(errors[1], errors[0]/2**order*1.1)
                 self.assertLess(errors[2], 1e-3 if degree == 1 else 1e-6)
+
+    def test_rollers_on_slopes_hold_ends_of_ties(self):
+        def turned(x, y):
+            return f"[{math.cos(0.5)*x - math.sin(0.5)*y}, {math.sin(0.5)*x + math.cos(0.5)*y}]"
+        text = ""
+        for name, y, cells, held in (("lower", 0, 5, "{ label = 1, un = 0 }"),
+                                     ("upper", 1, 7, "{ label = 3, pressure = 1 }")):
+            corners = ", ".join(turned(*each) for each in ((0, y), (1, y), (1, y + 1), (0, y + 1)))
+            text += (f'[[body]]\nname = "{name}"\nmaterial = {{ young = 1000, poisson = 0.3 }}\n'
+                     f'mesh = {{ shape = "quadrilateral", corners = [{corners}], cells = {cells} }}\n'
+                     f"boundary = [ {held}, {{ label = 4, un = 0 }} ]\n")
+        text += ('[[contact]]\nkind = "tied"\nsides = [{ body = "lower", label = 3 }, '
+                 '{ body = "upper", label = 1 }]\n[time]\nend = 1\nsteps = 1\n')
+        for degree in (1, 2):
+            for swap in ("false", "true"):
+                with self.subTest(degree=degree, swap=swap):
+                    final = self.solved(text, "--set", f"degree={degree}", "--set",
+                                        f"contact.swap={swap}")["final"]
+                    self.assertAlmostEqual(final["von_mises_min"], 1, delta=1e-12)
+                    self.assertAlmostEqual(final["von_mises_max"], 1, delta=1e-12)
 
     def test_a_tool_moves_the_side_that_is_tied_to_it(self):
         values = self.values(self.solved(HEAD))
