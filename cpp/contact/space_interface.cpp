@@ -181,12 +181,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
     Eigen::Vector3d covered = Eigen::Vector3d::Zero();
     double nearest = infinity;
-    for (size_t last = 2; last < each.polygon.size(); ++last) {
-      const Point& p0 = each.polygon[0];
-      const Point e1 = each.polygon[last - 1] - p0;
-      const Point e2 = each.polygon[last] - p0;
-      const double area = cross(e1, e2) / 2 * twiceArea;
-      if (!(area > 0)) continue;
+    forEachTriangle(each.polygon, [&](const Point& p0, const Point& e1, const Point& e2, double part) {
+      const double area = part * twiceArea;
       for (const auto& [at, weight] : radonSeven)
         atPoint(p0 + at[1] * e1 + at[2] * e2,
                 [&, weight = weight](const auto& phi, const auto& psi, const auto& chi, double delta) {
@@ -200,7 +196,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
                 });
       atPoint(p0 + (e1 + e2) / 3, addTo(points));
       points.areas.push_back(area);
-    }
+    });
     if (!options.gap && options.initial != InitialGap::close)
       atPoint(lowestIn(each.polygon, nonmortar.planar && mortar.planar ? 0 : 9, distanceAt),
               addTo(nearestPoints));

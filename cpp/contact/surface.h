@@ -89,6 +89,17 @@ struct DistanceError {
   double error = 0;    ///< expected; 0 where both triangles are one
 };
 
+/// Calls visit(p0, e1, e2, area) of the triangles p0, p0 + e1, p0 + e2 that a convex polygon is cut into.
+template <class Visit>
+void forEachTriangle(const std::vector<Point>& polygon, const Visit& visit) {
+  for (size_t last = 2; last < polygon.size(); ++last) {
+    const Point& p0 = polygon[0];
+    const Point e1 = polygon[last - 1] - p0;
+    const Point e2 = polygon[last] - p0;
+    if (const double area = cross(e1, e2) / 2; area > 0) visit(p0, e1, e2, area);
+  }
+}
+
 /// Between d, along which triangles face each other, and the normal n ~ R1 n1 - R2 n2 of contact of the
 /// curved surfaces at a point l of the nonmortar one: the square of the cosine. Surfaces that are g apart
 /// along n, and g/cos along d, meet by a motion g n, whose part along d is g cos.

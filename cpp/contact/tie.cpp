@@ -27,26 +27,6 @@ struct Opposite {
 /// Points that are apart by less than this part of the size of an element are one.
 constexpr double together = 1e-12;
 
-/// Elements behind the sides of a label.
-template <class Mesh>
-class BehindSides {
- public:
-  BehindSides(const Mesh& mesh, int label) {
-    std::vector<char> on(mesh.vertices.size(), 0);
-    for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
-      if (mesh.boundaryLabels[i] == label)
-        for (const int v : labelledSides(mesh)[i]) on[v] = 1;
-    forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) { elements_[side] = element; });
-  }
-  template <size_t n>
-  [[nodiscard]] int of(const std::array<int, n>& vertices) const {
-    return elements_.at(sideOf(vertices));
-  }
-
- private:
-  std::map<std::array<int, 3>, int> elements_;
-};
-
 /// The shape functions of an element at a point of a side of it, extended to x.
 /// \param nodes  of the element: vertices, then the middles of its sides
 /// \param places  of these, as columns (dimensions x nodes) [m]
@@ -138,8 +118,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
   const MortarLine across(mortar);
-  const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
-  const BehindSides ownBehind(nonmortarMesh.mesh, pair.nonmortar.label);
+  const ElementsBehind behind = elementsBehind(mortarMesh.mesh, pair.mortar.label);
+  const ElementsBehind ownBehind = elementsBehind(nonmortarMesh.mesh, pair.nonmortar.label);
   const bool atNodes = pair.coupling == CouplingKind::interpolation;
   Jumps jumps;
   double length = 0;
@@ -159,7 +139,7 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
     const auto mortarTrace = [&](const Segment& segment, const FacingPair& facing) {
       const int a = across.nodes[segment.mortar];
       const int b = across.nodes[segment.mortar + 1];
-      const int triangle = behind.of(std::array{a, b});
+      const int triangle = behind.at(sideOf(std::array{a, b}));
       const std::span nodes(mortarMesh.nodes.of(static_cast<size_t>(triangle)),
                             static_cast<size_t>(mortarMesh.nodes.perTriangle()));
       const double xi = facing.psi[1] + (facing.psi.size() > 2 ? facing.psi[2] / 2 : 0);
@@ -197,8 +177,8 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
           const Opposite opposite = mortarTrace(segment, facing);
           const int e = segment.nonmortar;
           const double ds = weight * facing.stretch * depth;
-          jumps.addPoint(own, opposite, ownBehind.of(std::array{part.nodes[e], part.nodes[e + 1]}), ds,
-                         part.s[e + 1] - part.s[e]);
+          jumps.addPoint(own, opposite, ownBehind.at(sideOf(std::array{part.nodes[e], part.nodes[e + 1]})),
+                         ds, part.s[e + 1] - part.s[e]);
           for (Eigen::Index i = 0; i < rows.size() && !atNodes; ++i)
             if (rows[i] >= 0) jumps.add(rowOf[rows[i]], ds * chi[i], own, opposite.values);
         });
@@ -216,12 +196,12 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
   shareNormals(nonmortar, mortar);
   const TriangleTree tree(mortar);
   SurfaceRefinement refinement(nonmortar, mortar, tree);
-  const BehindSides behind(mortarMesh.mesh, pair.mortar.label);
-  const BehindSides ownBehind(nonmortarMesh.mesh, pair.nonmortar.label);
+  const ElementsBehind behind = elementsBehind(mortarMesh.mesh, pair.mortar.label);
+  const ElementsBehind ownBehind = elementsBehind(nonmortarMesh.mesh, pair.nonmortar.label);
   const auto& vertices = nonmortarMesh.nodes.places;
   const auto mortarTrace = [&](int triangle, const Eigen::Vector3d& mu, const SpacePoint& x) {
     const auto& corners = mortar.triangles[triangle];
-    const int element = behind.of(std::array{corners[0], corners[1], corners[2]});
+    const int element = behind.at(sideOf(std::array{corners[0], corners[1], corners[2]}));
     const std::span nodes(mortarMesh.nodes.of(static_cast<size_t>(element)),
                           static_cast<size_t>(mortarMesh.nodes.perElement()));
     Eigen::Vector4d at = Eigen::Vector4d::Zero();
@@ -261,30 +241,25 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
       for (const auto& [row, part] : corners[k]->rows) rows.push_back(row);
     }
     jumps.join(rows);
-    const int element = ownBehind.of(std::array{nodes[0], nodes[1], nodes[2]});
-    for (size_t last = 2; last < each.polygon.size(); ++last) {
-      const Point& p0 = each.polygon[0];
-      const Point e1 = each.polygon[last - 1] - p0;
-      const Point e2 = each.polygon[last] - p0;
-      const double area = cross(e1, e2) / 2 * twiceArea;
-      if (!(area > 0)) continue;
-      covered += area;
+    const int element = ownBehind.at(sideOf(std::array{nodes[0], nodes[1], nodes[2]}));
+    forEachTriangle(each.polygon, [&](const Point& p0, const Point& e1, const Point& e2, double part) {
+      covered += part * twiceArea;
       for (const auto& [at, weight] : radonSeven) {
         const Point l = p0 + at[1] * e1 + at[2] * e2;
         const Eigen::Vector3d b(1 - l.sum(), l.x(), l.y());
         NodeValues own;
         const auto phi = traceShapes(nonmortar.degree, b);
         for (int k = 0; k < nonmortar.perTriangle(); ++k) own.emplace_back(nodes[k], phi[k]);
-        const SpacePoint place = b[0] * x[0] + b[1] * x[1] + b[2] * x[2];
         const Eigen::Vector3d mu = each.at(l);
         distance_ = std::max(distance_, std::abs(mu.dot(each.delta)));
-        const Opposite opposite = mortarTrace(each.mortar, mu, place);
-        jumps.addPoint(own, opposite, element, weight * area, std::sqrt(twiceArea));
+        const Opposite opposite = mortarTrace(each.mortar, mu, b[0] * x[0] + b[1] * x[1] + b[2] * x[2]);
+        const double ds = weight * part * twiceArea;
+        jumps.addPoint(own, opposite, element, ds, std::sqrt(twiceArea));
         for (int k = 0; k < 3 && !atNodes; ++k)
-          for (const auto& [row, part] : corners[k]->rows)
-            jumps.add(row, weight * area * b[k] * part, own, opposite.values);
+          for (const auto& [row, share] : corners[k]->rows)
+            jumps.add(row, ds * b[k] * share, own, opposite.values);
       }
-    }
+    });
   }
   if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
   overlap_ = covered / nonmortar.area;

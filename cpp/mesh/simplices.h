@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <type_traits>
 #include <vector>
 
@@ -60,6 +61,23 @@ void forEachSide(const Mesh& mesh, const std::vector<char>& some, Visit visit) {
       if (std::all_of(side.begin(), side.end(), [&](int v) { return some[v] != 0; }))
         visit(sideOf(side), static_cast<int>(e));
     }
+}
+
+/// Elements behind the sides of a label.
+using ElementsBehind = std::map<std::array<int, 3>, int>;
+template <class Mesh>
+ElementsBehind elementsBehind(const Mesh& mesh, int label) {
+  ElementsBehind behind;
+  std::vector<char> on(mesh.vertices.size(), 0);
+  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i) {
+    if (mesh.boundaryLabels[i] != label) continue;
+    behind[sideOf(labelledSides(mesh)[i])] = 0;
+    for (const int v : labelledSides(mesh)[i]) on[v] = 1;
+  }
+  forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) {
+    if (const auto found = behind.find(side); found != behind.end()) found->second = element;
+  });
+  return behind;
 }
 
 }  // namespace mortier

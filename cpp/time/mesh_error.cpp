@@ -65,22 +65,9 @@ MeshErrorEstimator::MeshErrorEstimator(const Model& model, Threads& threads) : m
 void MeshErrorEstimator::addSides(int body, int label) {
   const auto [place, isNew] = behind_.try_emplace({body, label});
   if (!isNew) return;
-  Behind& behind = place->second;
-  const auto add = [&](const auto& mesh) {
-    std::vector<char> on(mesh.vertices.size(), 0);
-    for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i) {
-      if (mesh.boundaryLabels[i] != label) continue;
-      behind[sideOf(labelledSides(mesh)[i])] = 0;
-      for (const int v : labelledSides(mesh)[i]) on[v] = 1;
-    }
-    forEachSide(mesh, on, [&](const std::array<int, 3>& side, int element) {
-      if (const auto found = behind.find(side); found != behind.end()) found->second = element;
-    });
-  };
-  if (const SpaceElements* space = model_.bodies[body].space())
-    add(space->mesh());
-  else
-    add(model_.bodies[body].mesh());
+  const SpaceElements* space = model_.bodies[body].space();
+  place->second = space != nullptr ? elementsBehind(space->mesh(), label)
+                                   : elementsBehind(model_.bodies[body].mesh(), label);
 }
 
 int MeshErrorEstimator::elementBehind(int body, int label, const std::array<int, 2>& edge) const {

@@ -24,6 +24,7 @@
 
 #include "base/adaptive_quadrature.h"
 #include "fem/error_estimate.h"
+#include "mesh/simplices.h"
 #include "solver/model.h"
 #include "solver/state.h"
 #include "solver/step_system.h"
@@ -47,8 +48,6 @@ class MeshErrorEstimator {
   [[nodiscard]] const ErrorEstimator& ofBody(size_t body) const { return bodies_[body]; }
 
  private:
-  /// Elements behind the sides of a label (mesh/simplices.h).
-  using Behind = std::map<std::array<int, 3>, int>;
   void addSides(int body, int label);
   [[nodiscard]] int elementBehind(int body, int label, const std::array<int, 2>& edge) const;
   void addGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
@@ -88,9 +87,10 @@ class MeshErrorEstimator {
 
   const Model& model_;
   std::vector<ErrorEstimator> bodies_;
-  std::map<std::array<int, 2>, Behind> behind_;  ///< by body and label: of contact, and where data vary
-  std::vector<Vector> compliances_;              ///< 1/E by points [1/Pa]
-  std::vector<Vector> steadyData_;               ///< of each body, by triangles; empty where all are resolved
+  std::map<std::array<int, 2>, ElementsBehind>
+      behind_;                       ///< by body and label: of contact, and where data vary
+  std::vector<Vector> compliances_;  ///< 1/E by points [1/Pa]
+  std::vector<Vector> steadyData_;   ///< of each body, by triangles; empty where all are resolved
   std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move
 };
 

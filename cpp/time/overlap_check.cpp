@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/formatted.h"
 #include "mesh/shape.h"
@@ -24,6 +25,17 @@ OverlapCheck::OverlapCheck(const Model& model) : model_(model) {
       outlines_.push_back(outlineOf(body(b).mesh(), body(b).elementNodes()));
       drawn_.emplace_back(outlines_.back(), body(b).elementNodes().places);
     }
+  }
+  for (const Tie& tie : model.ties) {
+    std::array<std::set<int>, 2> nodes;
+    const auto addTo = [&](std::set<int>& to) {
+      return [&](int, int dof, double) { to.insert(dof / tie.dimension()); };
+    };
+    forEachEntry(tie.C1(), addTo(nodes[0]));
+    forEachEntry(tie.C2(), addTo(nodes[1]));
+    const auto& [nonmortar, mortar, coupling] = tie.pair();
+    tiedNodes_.push_back({{static_cast<size_t>(nonmortar.body), {nodes[0].begin(), nodes[0].end()}},
+                          {static_cast<size_t>(mortar.body), {nodes[1].begin(), nodes[1].end()}}});
   }
   for (const ContactInterface& interface : model.interfaces) {
     const ContactPair& pair = interface.pair();
@@ -109,6 +121,23 @@ OverlapCheck::AtPoint OverlapCheck::atPoint(const std::vector<Between>& contacts
   return result;
 }
 
+/// Sides that are tied overlap as they are drawn, and beside their ends by what is left of the jump.
+void OverlapCheck::dropTied(const Places& places, std::vector<Sample>& samples) const {
+  constexpr double reach = 1.5;  // elements between a place and a node of the tie
+  for (const auto& nodes : tiedNodes_)
+    std::erase_if(samples, [&](const Sample& sample) {
+      const auto isOf = [&](size_t b) {
+        return sample.bodies[0] == static_cast<int>(b) || sample.bodies[1] == static_cast<int>(b);
+      };
+      return std::ranges::all_of(nodes, [&](const auto& side) { return isOf(side.first); }) &&
+             std::ranges::any_of(nodes, [&](const auto& side) {
+               return std::ranges::any_of(side.second, [&](int node) {
+                 return (places.of(side.first, node) - sample.at).norm() <= reach * sample.size;
+               });
+             });
+    });
+}
+
 /// What explains a sample explains those within an element as well: a corner is deep in an edge beside it.
 void OverlapCheck::judge(const Region& region, const std::vector<Between>& contacts,
                          BodyOverlap& worst) const {
@@ -135,19 +164,6 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
       return (is(pair.nonmortar, 0) && is(pair.mortar, 1)) || (is(pair.nonmortar, 1) && is(pair.mortar, 0));
     });
   };
-  // Sides that are tied overlap as they are drawn.
-  const auto isTied = [&](const Sample& sample) {
-    return std::ranges::any_of(model_.ties, [&](const Tie& tie) {
-      const auto is = [&](const ContactSide& side, int k) {
-        return side.body == sample.bodies[k] && side.label == sample.labels[k];
-      };
-      const auto& [nonmortar, mortar, coupling] = tie.pair();
-      const bool same = nonmortar.body == sample.bodies[0] && mortar.body == sample.bodies[1];
-      const bool turned = nonmortar.body == sample.bodies[1] && mortar.body == sample.bodies[0];
-      return (same && (is(nonmortar, 0) || is(mortar, 1))) || (turned && (is(nonmortar, 1) || is(mortar, 0)));
-    });
-  };
-  if (std::ranges::any_of(region.samples, isTied)) return;
   std::vector<double> allowed;
   std::vector<char> presses;
   for (const Sample& sample : region.samples) {
@@ -215,9 +231,11 @@ BodyOverlap OverlapCheck::find(const std::vector<Vector>& u, const std::vector<V
       if (places.apart(one, other)) continue;
       if (turnsOver(one, places) || turnsOver(other, places)) continue;
       const std::vector<Between> contacts = between(one, other, places, force, time);
-      for (const Region& region : spaceDrawn_.empty() ? inPlane(one, other, places, contacts)
-                                                      : inSpace(one, other, places, contacts))
+      for (Region& region : spaceDrawn_.empty() ? inPlane(one, other, places, contacts)
+                                                : inSpace(one, other, places, contacts)) {
+        dropTied(places, region.samples);
         judge(region, contacts, worst);
+      }
       for (const Region& region : behindMeshes(contacts, places, u, time)) judge(region, contacts, worst);
     }
   return worst;

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,7 @@ class OverlapCheck {
   [[nodiscard]] std::vector<Region> behindMeshes(const std::vector<Between>& contacts, const Places& places,
                                                  const std::vector<Vector>& u, double time) const;
   [[nodiscard]] bool drawnOnly(size_t b, int label) const;
+  void dropTied(const Places& places, std::vector<Sample>& samples) const;
   void judge(const Region& region, const std::vector<Between>& contacts, BodyOverlap& worst) const;
 
   const Model& model_;
@@ -90,6 +92,8 @@ class OverlapCheck {
   std::vector<MovedOutline> drawn_;
   std::vector<SpaceOutline> spaceOutlines_;
   std::vector<MovedSurface> spaceDrawn_;
+  /// By ties, of both bodies: the nodes that their rows act on.
+  std::vector<std::map<size_t, std::vector<int>>> tiedNodes_;
   std::vector<Vector>
       distanceDrawn_;  ///< per interface and row, of the boundaries; negative in the other body
 };

@@ -78,7 +78,17 @@ Vector motionOf(const Quantity& quantity, const Model& model) {
   if (quantity.kind != Quantity::Kind::contactForce) return reactionMotion(quantity, body);
   Vector motion = Vector::Zero(body.dofs());
   const int dimension = body.dimension();
-  for (const int node : body.boundaryNodes(quantity.whole ? std::nullopt : std::optional(quantity.label)))
+  const std::optional<int> label = quantity.whole ? std::nullopt : std::optional(quantity.label);
+  std::vector<int> nodes = body.boundaryNodes(label);
+  // Rows of ties act on nodes behind a side that is apart from the other one, too.
+  for (const Tie& tie : model.ties)
+    for (const auto& [side, C] :
+         {std::pair(&tie.pair().nonmortar, &tie.C1()), {&tie.pair().mortar, &tie.C2()}})
+      if (side->body == quantity.body && (!label || side->label == *label))
+        forEachEntry(*C, [&](int, int dof, double) { nodes.push_back(dof / dimension); });
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (const int node : nodes)
     motion.segment(static_cast<Eigen::Index>(dimension) * node, dimension) =
         -motionAt(quantity, body.placeOfNode(node)).head(dimension);
   return motion;

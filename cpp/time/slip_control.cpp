@@ -16,9 +16,8 @@ double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
 }
 
 /// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
-/// show. What they do show that one misses 2^(p+1) times. A node that closes in the pair, and sticks, has
-/// slipped in its first step or not at all: slips are compared with what it slips before it closes, and that
-/// is what the step misses.
+/// show. What they do show that one misses 2^(p+1) times. A node that closes in the pair and sticks slips, in
+/// the solution, in the first step of the pair or not at all: the slip before closing is added.
 void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
   addTo(missed, 1, taker.slip());
   addTo(missed, 2, {taker.slipBeforeClosing(), 0, {}});

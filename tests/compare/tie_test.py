@@ -130,6 +130,60 @@ steps = 4
 """
 
 
+# Half a ring on a plate, tied at one foot, the other one pressed into the plate.
+ARCH = """\
+plane = "strain"
+[[body]]
+name = "arch"
+mesh = { shape = "annulus", inner = 1, outer = 2, span = "half", cells = [24, 4] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 4, uy = -0.3 } ]
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [-2, -1], upper = [2, 0], cells = [20, 6] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[contact]]
+kind = "tied"
+sides = [{ body = "arch", label = 3 }, { body = "plate", label = 3 }]
+[time]
+end = 1
+steps = 1
+"""
+
+# A column on a wider base: the corners between them are reentrant.
+CORNERS = """\
+plane = "strain"
+[[body]]
+name = "column"
+mesh = { shape = "rectangle", lower = [0.5, GAP], upper = [1.5, 2], cells = [8, 16] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 3, ux = 0.01 } ]
+[[body]]
+name = "base"
+mesh = { shape = "rectangle", lower = [0, -1], upper = [2, 0], cells = [22, 11] }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[contact]]
+kind = "tied"
+sides = [{ body = "column", label = 1 }, { body = "base", label = 3 }]
+[[quantity]]
+name = "above"
+contact_force = { body = "column", label = 1 }
+component = "moment"
+[[quantity]]
+name = "below"
+contact_force = { body = "base", label = 3 }
+component = "moment"
+[[quantity]]
+name = "peak"
+largest_mises = { body = "column" }
+[time]
+end = 1
+steps = 1
+"""
+
+
 class Ties(InFolder):
     def solved(self, text, *options, code=0):
         self.write(text)
@@ -192,6 +246,30 @@ class Ties(InFolder):
             whole = self.values(self.solved(text(2, 8, ', { label = "top", tx = 1 }', "", "lower")))["corner"]
             cut = self.values(self.solved(text(1, 4, "", UPPER, "upper")))["corner"]
             self.assertLess(abs(cut/whole - 1), 0.04 if degree == 1 else 0.003)
+
+    def test_both_sides_of_a_tie_that_is_apart_have_one_force(self):
+        for gap in (0, 0.1):
+            summary = self.solved(CORNERS.replace("GAP", str(gap)))
+            values = self.values(summary)
+            self.assertAlmostEqual(values["above"]/values["below"], -1, delta=1e-11)
+            # by which the coarse mesh is off a finer one
+            fine = self.values(self.solved(CORNERS.replace("GAP", str(gap)).replace("8, 16", "24, 48")
+                                           .replace("22, 11", "44, 22")))
+            error = summary["quantities"]["above"]["estimated_error"]
+            self.assertLess(abs(values["above"] - fine["above"]), 2*error)
+            self.assertLess(error, 0.3*abs(values["above"]))
+
+    def test_a_peak_at_a_corner_between_tied_bodies_has_no_estimate(self):
+        self.write(CORNERS.replace("GAP", "0"))
+        for degree in (1, 2):
+            told = self.mortier("run", "scene.toml", "--out", "out", "--set", f"degree={degree}").stdout
+            self.assertRegex(told, r"peak .* \(no (estimate|limit): stresses (may be|are) unbounded there")
+            self.assertNotIn("overlap by", told)  # what is left of the jump at the ends
+
+    def test_an_overlap_beside_a_tie_is_found(self):
+        self.write(ARCH)
+        told = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1).stderr
+        self.assertRegex(told, r"overlap by 0\.3 at \(-1\.")
 
     def test_freefem_agrees_on_a_tie_beside_contact_with_friction(self):
         self.write(LAYER)
