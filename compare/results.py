@@ -77,7 +77,7 @@ class Contact:
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
     interface: np.ndarray = None  # from 0; None where the code does not write it
-    # None where no interface has friction or the code does not write it
+    # None where no interface has friction or the code does not write it; in space vectors, nodes x 3
     friction: np.ndarray = None  # nodal, along the line [N/m]
     shear: np.ndarray = None  # [Pa]
     slipping: np.ndarray = None  # sign of the shear stress where it slipped in the last step, else 0
@@ -158,11 +158,15 @@ def contact_tables(folder):
 def contact_of(rows):
     def column(name):
         return np.array([float(row[name]) for row in rows])
+
+    def along_contact(name):
+        if rows and f"{name}_x" in rows[0]:
+            return np.column_stack([column(f"{name}_{x}") for x in "xyz"])
+        return column(name) if rows and name in rows[0] else None
     axes = "xyz" if rows and "z" in rows[0] else "xy"
     return Contact(column("vertex").astype(int), np.column_stack([column(x) for x in axes]), column("gap"),
                    column("force"), column("pressure"), column("interface").astype(int),
-                   *(column(name) if rows and name in rows[0] else None
-                     for name in ("friction", "shear", "slipping", "slip")))
+                   *map(along_contact, ("friction", "shear", "slipping", "slip")))
 
 
 def read_history(folder):

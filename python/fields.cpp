@@ -153,9 +153,15 @@ void bindFields(py::module_& module) {
   nodal("gap", &ContactFields::gap);
   nodal("force", &ContactFields::force);
   nodal("pressure", &ContactFields::pressure);
-  nodal("friction", &ContactFields::friction);
-  nodal("shear", &ContactFields::shear);
-  nodal("slip", &ContactFields::slip);
+  const auto along = [&contact](const char* name, auto ContactFields::*values) {
+    contact.def_property_readonly(name, [values](const Contact& c) {
+      const Matrix& all = c.fields().*values;
+      return all.rows() == 1 ? view(all.data(), {all.cols()}, c.step) : rowsOf(all, c.step);
+    });
+  };
+  along("friction", &ContactFields::friction);
+  along("shear", &ContactFields::shear);
+  along("slip", &ContactFields::slip);
   nodal("slipping", &ContactFields::slipping);
   contact.def_property_readonly("position", [](const Contact& c) -> py::object {
     const std::vector<SpacePoint>& p = c.fields().place;

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -48,8 +49,8 @@ enum class InitialGap {
   reject     ///< an error, unless they do
 };
 
-/// The bound of the nodal forces t along the line: coefficient p + limit times the length of line (the mass
-/// of the row functions) that the node stands for. Without friction both are 0.
+/// The bound of the nodal forces |t| along contact: coefficient p + limit times the length of line (the mass
+/// of the row functions), or the area, that the node stands for. Without friction both are 0.
 struct Friction {
   double coefficient = 0;  ///< mu, Coulomb's law [-]
   double limit = 0;        ///< Tresca's law: the shear stress at which surfaces slip, pressed or not [Pa]
@@ -101,6 +102,7 @@ struct SpaceInterfaceOptions {
   bool gapMoves = false;
   double mortarCompliance = 0;  ///< of the mortar body in a half-space, (1 - nu^2)/E [1/Pa]
   bool stabilised = false;
+  Friction friction = {};
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
@@ -164,18 +166,26 @@ class ContactInterface {
   [[nodiscard]] const Datum& given() const { return given_; }
   void setGiven(Datum distance) { given_ = std::move(distance); }
   [[nodiscard]] const Friction& friction() const { return friction_; }
-  /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same
-  /// weights, along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
+  /// Whether there is friction. Then every row i of C has slipComponents() rows for the slip T u, with the
+  /// same weights. In the plane it is row i of T, along n turned by +90 degrees: the direction of the
+  /// nonmortar line, with its body to the left. In space they are rows 2i and 2i + 1, along tangents().
   [[nodiscard]] bool hasFriction() const { return friction_.any(); }
+  /// Directions of slip at a node: dimension() - 1.
+  [[nodiscard]] int slipComponents() const { return dimension_ - 1; }
+  /// How many rows T has; 0 without friction.
+  [[nodiscard]] int slipRows() const { return static_cast<int>(T1_.rows()); }
+  /// In space with friction: the directions of slip at the node of each row, normal to that of contact and to
+  /// each other.
+  [[nodiscard]] const std::vector<std::array<SpacePoint, 2>>& tangents() const { return tangents_; }
   [[nodiscard]] const ConstraintRows& T1() const {
     return T1_;
   }  ///< on the nonmortar body; no rows if smooth
   [[nodiscard]] const ConstraintRows& T2() const { return T2_; }  ///< on the mortar body; no rows if smooth
-  /// T u: by how much the nonmortar body has moved along the line over the mortar body [m].
+  /// T u: by how much the nonmortar body has moved along contact over the mortar body [m].
   [[nodiscard]] Vector slip(const Vector& uNonmortar, const Vector& uMortar) const {
     return T1_ * uNonmortar + T2_ * uMortar;
   }
-  /// Bounds of t [N/m] at nodal forces p.
+  /// Bounds of |t| by rows of C [N/m] at nodal forces p.
   [[nodiscard]] Vector frictionBound(const Vector& p) const;
   /// f -= T' t on both bodies' nodal forces [N/m]; t is what the nonmortar body exerts along the line.
   void subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const;
@@ -278,6 +288,7 @@ class ContactInterface {
   std::vector<int> mortarNodes_;
   std::vector<Point> normals_;
   std::vector<SpacePoint> spaceNormals_;
+  std::vector<std::array<SpacePoint, 2>> tangents_;
   ConstraintRows C1_;
   ConstraintRows C2_;
   Friction friction_;

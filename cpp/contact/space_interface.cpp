@@ -7,6 +7,9 @@
 // vertex has a row for each smooth part of the surface that meets there if it faces the mortar surface
 // itself. The functions of the others go to neighbours with rows in equal parts, neighbour by neighbour, so
 // that row functions still add up to 1.
+//
+// With friction a row has two beside it for the slip, along the tangents of its node, turned with the normal
+// where that is another one. The mass of their projection is that of the rows times these turns.
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -18,6 +21,7 @@
 #include "contact/interface_entries.h"
 #include "contact/point_entries.h"
 #include "contact/surface.h"
+#include "contact/tangents.h"
 
 namespace mortier {
 namespace {
@@ -57,6 +61,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   ContactInterface result;
   result.dimension_ = 3;
   result.pair_ = pair;
+  result.friction_ = options.friction;
+  const int slipRows = options.friction.any() ? 2 : 0;  // of a node
 
   const TriangleTree tree(mortar);
   SurfaceRefinement refinement(nonmortar, mortar, tree);
@@ -103,6 +109,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     vertex.rows.emplace_back(static_cast<int>(result.nonmortarNodes_.size()), 1);
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
+    if (slipRows > 0) result.tangents_.push_back(tangentsTo(n));
     hits.push_back(hit);
     distances.push_back(hit.triangle < 0 ? infinity
                                          : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu));
@@ -120,6 +127,12 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   const Eigen::Index columns2 = 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count());
   const bool projects = pair.coupling == CouplingKind::mortar;
   Triplets mass, D, M;
+  Triplets slipMass, slipD, slipM;
+  // The directions of slip of a row where the normal is n.
+  const auto tangentAt = [&](Eigen::Index row, int a, const SpacePoint& n) {
+    return turnedWith(result.tangents_[row][a], result.spaceNormals_[row], n);
+  };
+  const auto slipRow = [](int row, int a) { return 2 * row + a; };
   PointEntries points, nearestPoints;
   Vector distance = Vector::Zero(rows);
   Vector least = Vector::Constant(rows, infinity);
@@ -210,13 +223,25 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       for (Eigen::Index j = 0; j < count && pair.coupling != CouplingKind::weighted; ++j) {
         const double entry = products.dot(parts.row(j));
         mass.emplace_back(row, own[j], entry);
+        if (!projects) continue;
         // Of the difference from the motions of the rows' own vertices.
-        if (projects) add(D, row, result.nonmortarNodes_[own[j]], -entry, result.spaceNormals_[own[j]]);
+        add(D, row, result.nonmortarNodes_[own[j]], -entry, result.spaceNormals_[own[j]]);
+        for (int a = 0; a < slipRows; ++a) {
+          const SpacePoint there = tangentAt(row, a, result.spaceNormals_[own[j]]);
+          add(slipD, slipRow(row, a), result.nonmortarNodes_[own[j]], -entry, there);
+          for (int b = 0; b < slipRows; ++b)
+            slipMass.emplace_back(slipRow(row, a), slipRow(own[j], b),
+                                  entry * there.dot(result.tangents_[own[j]][b]));
+        }
       }
-      for (int k = 0; k < nonmortar.perTriangle(); ++k)
-        add(D, row, nodes1[k], parts.row(i).dot(traces1.col(k)), n);
-      for (int k = 0; k < mortar.perTriangle(); ++k)
-        add(M, row, nodes2[k], -parts.row(i).dot(traces2.col(k)), n);
+      const auto addJump = [&](Triplets& to1, Triplets& to2, int at, const SpacePoint& along) {
+        for (int k = 0; k < nonmortar.perTriangle(); ++k)
+          add(to1, at, nodes1[k], parts.row(i).dot(traces1.col(k)), along);
+        for (int k = 0; k < mortar.perTriangle(); ++k)
+          add(to2, at, nodes2[k], -parts.row(i).dot(traces2.col(k)), along);
+      };
+      addJump(D, M, row, n);
+      for (int a = 0; a < slipRows; ++a) addJump(slipD, slipM, slipRow(row, a), tangentAt(row, a, n));
     }
   }
   const std::array<int, 2> nodes{nonmortarMesh.nodes.count(), mortarMesh.nodes.count()};
@@ -230,19 +255,29 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.weights_ = result.lengths_;
     result.C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
     result.C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
+    const Vector ofSlips = inverse.transpose().replicate(slipRows, 1).reshaped();
+    result.T1_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns1, slipD);
+    result.T2_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns2, slipM);
     result.distance_ = inverse.cwiseProduct(distance);
   } else {
     result.mass_ = assembled(rows, rows, mass);
     result.weights_ = result.mass_ * Vector::Ones(rows);
-    Triplets own, opposite;
-    for (Eigen::Index row = 0; row < rows; ++row) {
-      const SpacePoint& n = result.spaceNormals_[row];
-      add(own, row, result.nonmortarNodes_[row], 1, n);
-      for (int k = 0; k < 3 && !projects; ++k)
-        add(opposite, row, mortar.triangles[hits[row].triangle][k], -hits[row].mu[k], n);
+    Triplets own, opposite, slipOwn, slipOpposite;
+    for (int row = 0; row < rows; ++row) {
+      const auto addNode = [&](Triplets& nonmortarRows, Triplets& mortarRows, int at,
+                               const SpacePoint& along) {
+        add(nonmortarRows, at, result.nonmortarNodes_[row], 1, along);
+        for (int k = 0; k < 3 && !projects; ++k)
+          add(mortarRows, at, mortar.triangles[hits[row].triangle][k], -hits[row].mu[k], along);
+      };
+      addNode(own, opposite, row, result.spaceNormals_[row]);
+      for (int a = 0; a < slipRows; ++a)
+        addNode(slipOwn, slipOpposite, slipRow(row, a), result.tangents_[row][a]);
     }
     result.C1_ = assembled<ConstraintRows>(rows, columns1, own);
     result.C2_ = assembled<ConstraintRows>(rows, columns2, opposite);
+    result.T1_ = assembled<ConstraintRows>(slipRows * rows, columns1, slipOwn);
+    result.T2_ = assembled<ConstraintRows>(slipRows * rows, columns2, slipOpposite);
     result.distance_ = Eigen::Map<const Vector>(distances.data(), rows);
     if (!projects) {
       const Vector exact = assembled<ConstraintRows>(rows, columns2, M).transpose() * Vector::Ones(rows);
@@ -250,22 +285,28 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       result.patchError_ = off.cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
     }
     if (projects) {
-      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(result.mass_);
-      const auto projected = [&](Eigen::Index columns, const Triplets& entries) {
+      using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+      const auto projected = [](const Factor& factor, Eigen::Index columns, const Triplets& entries) {
         // By its columns that have entries.
-        const Eigen::SparseMatrix<double> B = assembled(rows, columns, entries);
+        const Eigen::SparseMatrix<double> B = assembled(factor.rows(), columns, entries);
         Triplets all;
         for (Eigen::Index j = 0; j < columns; ++j) {
           if (B.col(j).nonZeros() == 0) continue;
           const Vector column = factor.solve(Vector(B.col(j)));
           constexpr double nothing = 1e-17;
-          for (Eigen::Index i = 0; i < rows; ++i)
+          for (Eigen::Index i = 0; i < column.size(); ++i)
             if (std::abs(column[i]) > nothing) all.emplace_back(i, j, column[i]);
         }
-        return assembled<ConstraintRows>(rows, columns, all);
+        return assembled<ConstraintRows>(factor.rows(), columns, all);
       };
-      result.C1_ += projected(columns1, D);
-      result.C2_ = projected(columns2, M);
+      const Factor factor(result.mass_);
+      result.C1_ += projected(factor, columns1, D);
+      result.C2_ = projected(factor, columns2, M);
+      if (slipRows > 0) {
+        const Factor ofSlips(assembled(slipRows * rows, slipRows * rows, slipMass));
+        result.T1_ += projected(ofSlips, columns1, slipD);
+        result.T2_ = projected(ofSlips, columns2, slipM);
+      }
       // The projection of a convex distance may be below the least one where a row function is not 0.
       const Vector mean = factor.solve(distance);
       result.distance_ = mean.cwiseMax(least.cwiseMin(result.distance_));

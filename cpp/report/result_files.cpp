@@ -187,9 +187,20 @@ void keepFacing(const ContactInterface& interface, ContactFields& fields) {
   }
   fields.vertex = std::move(vertex);
   fields.slipping = std::move(slipping);
-  for (Vector* each :
-       {&fields.gap, &fields.force, &fields.pressure, &fields.friction, &fields.shear, &fields.slip})
-    *each = Vector((*each)(rows));
+  for (Vector* each : {&fields.gap, &fields.force, &fields.pressure}) *each = Vector((*each)(rows));
+  for (Matrix* each : {&fields.friction, &fields.shear, &fields.slip})
+    *each = Matrix((*each)(Eigen::all, rows));
+}
+
+/// What belongs to the rows of T, by nodes: along the line, in space along the axes.
+Matrix byNodes(const ContactInterface& interface, const Vector& values) {
+  if (interface.dimension() == 2) return values.transpose();
+  Matrix vectors(3, interface.rows());
+  for (int i = 0; i < interface.rows(); ++i) {
+    const auto& [t1, t2] = interface.tangents()[i];
+    vectors.col(i) = values[2 * i] * t1 + values[2 * i + 1] * t2;
+  }
+  return vectors;
 }
 
 }  // namespace
@@ -201,7 +212,7 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
                       state.bodies[pair.mortar.body].displacement, state.time);
   const Vector& force = state.contactForce[interface];
   if (of.yields()) gap -= of.yielded(force);
-  const Vector none = Vector::Zero(of.rows());
+  const Matrix none = Matrix::Zero(of.dimension() == 2 ? 1 : 3, of.rows());
   ContactFields fields{of.nonmortarNodes(),
                        {},
                        (0 - gap.array()).matrix(),
@@ -212,10 +223,11 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
                        none,
                        std::vector<signed char>(of.rows(), 0)};
   if (of.hasFriction()) {
-    fields.friction = state.frictionForce[interface];
-    fields.shear = of.contactPressure(fields.friction);
-    fields.slip =
-        of.slip(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
+    fields.friction = byNodes(of, state.frictionForce[interface]);
+    for (Eigen::Index c = 0; c < none.rows(); ++c)
+      fields.shear.row(c) = of.contactPressure(fields.friction.row(c)).transpose();
+    fields.slip = byNodes(of, of.slip(state.bodies[pair.nonmortar.body].displacement,
+                                      state.bodies[pair.mortar.body].displacement));
     fields.slipping = state.slipping[interface];
   }
   if (of.follows()) keepFacing(of, fields);
@@ -236,7 +248,10 @@ void writeHistoryRow(OutputFile& file, const StepReport& report) {
 void writeContactHeader(OutputFile& file, const Model& model) {
   file << "step,time,interface,vertex,x,y," << (model.bodies.front().dimension() == 3 ? "z," : "")
        << "gap,force,pressure,active";
-  if (anyFriction(model)) file << ",friction,shear,slip,slipping";
+  if (anyFriction(model) && model.bodies.front().dimension() == 3)
+    file << ",friction_x,friction_y,friction_z,shear_x,shear_y,shear_z,slip_x,slip_y,slip_z,slipping";
+  else if (anyFriction(model))
+    file << ",friction,shear,slip,slipping";
   file << '\n';
 }
 
@@ -249,9 +264,10 @@ void writeContactRows(OutputFile& file, const Model& model, const State& state, 
       for (int c = 0; c < model.bodies.front().dimension(); ++c) file << ',' << fields.place[i][c];
       file << ',' << fields.gap[i] << ',' << fields.force[i] << ',' << fields.pressure[i] << ','
            << (fields.force[i] > 0 ? 1 : 0);
-      if (friction)
-        file << ',' << fields.friction[i] << ',' << fields.shear[i] << ',' << fields.slip[i] << ','
-             << static_cast<int>(fields.slipping[i]);
+      for (const Matrix* each : {&fields.friction, &fields.shear, &fields.slip})
+        for (Eigen::Index c = 0; friction && c < each->rows(); ++c)
+          file << ',' << (*each)(c, static_cast<Eigen::Index>(i));
+      if (friction) file << ',' << static_cast<int>(fields.slipping[i]);
       file << '\n';
     }
   }

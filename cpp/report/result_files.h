@@ -40,11 +40,13 @@ struct ContactFields {
   Vector gap;                     ///< positive where the bodies are apart [m]
   Vector force;                   ///< [N/m]
   Vector pressure;                ///< [Pa]
-  // Along the line (the nonmortar body to the left); zero where there is no friction.
-  Vector friction;                    ///< nodal force t on the nonmortar body [N/m]
-  Vector shear;                       ///< Phi^-1 t [Pa]
-  Vector slip;                        ///< how far it has moved over the other body since t = 0 [m]
-  std::vector<signed char> slipping;  ///< sign of t where the node slipped in the last step, else 0
+  // By columns, along the line (the nonmortar body to the left), in space by three components along the axes;
+  // zero where there is no friction.
+  Matrix friction;  ///< nodal force t on the nonmortar body [N/m]
+  Matrix shear;     ///< Phi^-1 t [Pa]
+  Matrix slip;      ///< how far it has moved over the other body since t = 0 [m]
+  std::vector<signed char>
+      slipping;  ///< sign of t where the node slipped in the last step, 1 in space; else 0
 };
 ContactFields contactFields(const Model& model, const State& state, size_t interface);
 

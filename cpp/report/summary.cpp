@@ -78,8 +78,9 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
                     {"held_ends", interface.heldEnds()}});
     if (!interface.hasFriction()) continue;
     list.back()["friction_work"] = state.frictionWorkOf[k];
-    if (!model.bodies[interface.pair().nonmortar.body].axisymmetric())
-      list.back()["couple"] = frictionCouple(model, state, k);
+    if (model.bodies[interface.pair().nonmortar.body].axisymmetric()) continue;
+    const SpacePoint couple = frictionCouple(model, state, k);
+    list.back()["couple"] = dimension == 2 ? Json(couple.z()) : jsonOf(couple, dimension);
   }
   return list;
 }

@@ -184,6 +184,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   const ContactPair pair = pairOf(scene, contact);
   InterfaceOptions options;
   options.initial = contact.initial;
+  options.friction = contact.friction;
   if (scene.inSpace()) {
     if (contact.gap) {
       const Body& body = model.bodies[pair.nonmortar.body];
@@ -199,12 +200,11 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
         surfaceCompliance(scene, contact.mortar(), model.bodies[pair.mortar.body].space()->mesh());
     return addAt(contact, [&] {
       addInterface(model, pair, options);
-      requireMemory(memoryNeed(model, scene.solver), false);
+      requireMemory(memoryNeed(model, scene.solver), contact.friction.any());
     });
   }
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
-  options.friction = contact.friction;
   options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
   options.stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);

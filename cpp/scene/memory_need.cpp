@@ -92,9 +92,11 @@ MemoryNeed needInSpace(const Model& model, const SolverOptions& options) {
     bytes += (single ? sizeof(float) : sizeof(double)) * 2e7 * std::pow(body.freeDofs() / 26e3, 1.4) +
              ofAnEquation * body.dofs();
   }
-  for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
+  for (const ContactInterface& interface : model.interfaces)
+    conditions += interface.rows() + interface.slipRows();
   for (const Tie& tie : model.ties) conditions += tie.rows();
-  const double dense = 4 * sizeof(double) * conditions * conditions;
+  const double copies = anyFriction(model) ? 7 : 4;
+  const double dense = copies * sizeof(double) * conditions * conditions;
   return {bytes + dense, dense};
 }
 

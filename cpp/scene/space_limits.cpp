@@ -19,18 +19,11 @@ void requireKnown(const BodyDescription& body, int degree) {
 
 void requireKnown(const ContactDescription& contact, int degree) {
   const std::string where = contact.where + ": contact";
-  if (contact.friction.any()) refuse(where, "friction");
   if (contact.sliding == SlidingKind::finite) refuse(where, "sliding = \"finite\"");
   if (degree == 1 || contact.variant == CouplingKind::weighted) return;
   throw InputError(where + ": variant = \"" + word(contact.variant) +
                    "\", expected \"weighted\" with degree = 2: in space the integral of a quadratic vertex "
                    "function over a triangle is zero");
-}
-
-void requireKnown(const QuantityDescription& quantity) {
-  using Kind = Quantity::Kind;
-  const std::string where = quantity.where + ": quantity " + quantity.name;
-  if (quantity.kind == Kind::frictionWork) refuse(where, "friction_work");
 }
 
 }  // namespace
@@ -56,7 +49,6 @@ void requireKnownInSpace(const TableReader& root, const SceneDescription& scene)
         .reject("list_solutions", std::string("false") + inThePlane + ", of friction");
   for (const BodyDescription& body : scene.bodies) requireKnown(body, scene.degree);
   forEachPair(scene, [&](const ContactDescription& contact) { requireKnown(contact, scene.degree); });
-  for (const QuantityDescription& quantity : scene.quantities) requireKnown(quantity);
 }
 
 }  // namespace mortier

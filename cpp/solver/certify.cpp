@@ -119,11 +119,18 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     if (interface.hasFriction()) {
       const Vector& t = iterate.frictionForce[k];
       const Vector bound = interface.frictionBound(p);
-      for (Eigen::Index i = 0; i < t.size(); ++i) {
+      const int m = interface.slipComponents();
+      for (Eigen::Index i = 0; i < bound.size(); ++i) {
         const int sign = iterate.slipping[k][i];
-        beyondBound.add(std::abs(t[i]) - bound[i]);
-        if (bound[i] > 0)
-          wrongSlip.add(moved(sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i], along + i));
+        const auto tangential = t.segment(m * i, m);
+        const auto slipped = slip[k].segment(m * i, m);
+        beyondBound.add(tangential.norm() - bound[i]);
+        if (!(bound[i] > 0)) continue;
+        const Vector direction = sign == 0 ? Vector::Zero(m) : m == 1 ? Vector::Constant(1, sign)
+                                                                    : Vector(tangential / bound[i]);
+        const double against = -direction.dot(slipped);
+        const double aside = (slipped + against * direction).norm();  // all of it where the node sticks
+        wrongSlip.add(moved(std::max(aside, against), along + m * i));
       }
       along += t.size();
     }

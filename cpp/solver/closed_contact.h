@@ -18,14 +18,16 @@ class ClosedContact {
     constexpr double regularising = 1e-12;  // where conditions or motions are redundant
     FrictionWork work;
     const Vector none = Vector::Zero(problem.W.rows());
-    HeldConditions held = FrictionSystem(problem, none, {}, work).heldOn(sets);
+    if (problem.along.components > 1) aligned_.emplace(problem, problem.along.law, sets);
+    const ContactProblem& plane = aligned_ ? aligned_->problem() : problem;
+    HeldConditions held = FrictionSystem(plane, none, {}, work).heldOn(aligned_ ? aligned_->sets() : sets);
     if (held.rows.empty()) return;
-    const double compliance = problem.W.diagonal()(held.rows).cwiseAbs().maxCoeff();
-    equations_.emplace(problem, std::move(held), regularising * compliance, regularising / compliance,
-                       adjoint);
+    const double compliance = plane.W.diagonal()(held.rows).cwiseAbs().maxCoeff();
+    equations_.emplace(plane, std::move(held), regularising * compliance, regularising / compliance, adjoint);
   }
 
-  [[nodiscard]] ContactSolution solve(const Vector& slack, const Vector& balance) const {
+  [[nodiscard]] ContactSolution solve(const Vector& given, const Vector& balance) const {
+    const Vector slack = aligned_ ? aligned_->aligned(given) : given;
     ContactSolution solution;
     solution.change = Vector::Zero(slack.size());
     solution.rigid = Vector::Zero(problem_.G.cols());
@@ -39,12 +41,14 @@ class ClosedContact {
     solution.change(held) = forces;
     for (const auto& [row, leader, part] : followers)
       if (!adjoint_) solution.change[row] = part * forces[leader];
+    if (aligned_) solution.change = aligned_->back(std::move(solution.change));
     return solution;
   }
 
  private:
   const ContactProblem& problem_;
   bool adjoint_;
+  std::optional<AlignedProblem> aligned_;
   std::optional<HeldSystem> equations_;
 };
 

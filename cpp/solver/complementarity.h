@@ -12,16 +12,31 @@
 
 namespace mortier {
 
-/// Bounds b = coefficient p + limit, by tangential condition.
+/// Bounds b = coefficient p + limit, by node with friction.
 struct FrictionLaw {
   Vector coefficient = {};  ///< mu [-]
   Vector limit = {};        ///< c [N/m]
 };
 
-/// The conditions along the line (friction.h), which come after all those across it.
+/// The conditions along contact (friction.h), which come after all those across it, node by node.
 struct FrictionRows {
-  std::vector<int> node = {};  ///< the condition across whose p bounds each
+  std::vector<int> node = {};  ///< by node with friction, the condition across whose p bounds its force
   FrictionLaw law = {};
+  int components = 1;  ///< conditions of a node: 1 in the plane, 2 in space
+
+  [[nodiscard]] Eigen::Index conditions() const {
+    return components * static_cast<Eigen::Index>(node.size());
+  }
+};
+
+/// How a node slips in space, by its two directions of slip.
+struct SlipDirection {
+  Point along = Point::Zero();  ///< of t, a unit vector
+  double turning = 0;           ///< |v|/|t|: slip across it for a force across it [m^2/N]
+
+  friend bool operator==(const SlipDirection& a, const SlipDirection& b) {
+    return a.along == b.along && a.turning == b.turning;
+  }
 };
 
 struct ContactProblem {
@@ -33,9 +48,7 @@ struct ContactProblem {
   FrictionRows along = {};  ///< none without friction
 
   /// The number of conditions across the line.
-  [[nodiscard]] Eigen::Index normals() const {
-    return W.rows() - static_cast<Eigen::Index>(along.node.size());
-  }
+  [[nodiscard]] Eigen::Index normals() const { return W.rows() - along.conditions(); }
 };
 
 struct ContactSolution {
@@ -47,15 +60,16 @@ struct ContactSolution {
     capped       ///< all pivots, or all the work, that are allowed were done: `workLimit` factorisations of W
   };
   Outcome outcome = Outcome::cycled;
-  Vector change;                      ///< dp
-  Vector rigid;                       ///< z
-  std::vector<char> active;           ///< the set on which s = 0 was asked
-  std::vector<signed char> slipping;  ///< with friction (friction.h), by the conditions along the line
-  int pivots = 0;                     ///< active sets that were solved on
-  double work = 0;                    ///< operations, over those of a factorisation of W [-]
-  int idle = 0;                       ///< conditions that no free motion changes: W_ii = 0
-  std::vector<Vector> motion;         ///< of the bodies (dofs), where they were not condensed
-  bool dependent = false;             ///< conditions depend on each other: the forces are one choice of many
+  Vector change;                          ///< dp
+  Vector rigid;                           ///< z
+  std::vector<char> active;               ///< the set on which s = 0 was asked
+  std::vector<signed char> slipping;      ///< with friction (friction.h), by node with friction
+  std::vector<SlipDirection> directions;  ///< the same in space; empty in the plane
+  int pivots = 0;                         ///< active sets that were solved on
+  double work = 0;                        ///< operations, over those of a factorisation of W [-]
+  int idle = 0;                           ///< conditions that no free motion changes: W_ii = 0
+  std::vector<Vector> motion;             ///< of the bodies (dofs), where they were not condensed
+  bool dependent = false;  ///< conditions depend on each other: the forces are one choice of many
 };
 
 /// How many conditions depend on others: those that change, less the rank of W.

@@ -64,7 +64,7 @@ void forEachEquation(const Model& model, int body, const std::vector<int>& first
   for (const ContactInterface& interface : model.interfaces) {
     if (!interface.hasFriction()) continue;
     forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
-    rows += interface.rows();
+    rows += interface.slipRows();
   }
   for (const Tie& tie : model.ties) {
     forEachEntry(tie, body, tie.C1(), tie.C2(), visitParts(rows));
@@ -103,8 +103,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
 
 void ContactDofs::updateConstraints(const Model& model, int body, const std::vector<int>& firstRow) {
   int conditions = firstRow.back();
-  for (const ContactInterface& interface : model.interfaces)
-    conditions += interface.hasFriction() ? interface.rows() : 0;
+  for (const ContactInterface& interface : model.interfaces) conditions += interface.slipRows();
   for (const Tie& tie : model.ties) conditions += tie.rows();
   Triplets entries;
   forEachEquation(model, body, firstRow, [&](int row, int equation, double value) {

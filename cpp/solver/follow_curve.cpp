@@ -93,6 +93,7 @@ class Curve {
       if (!tangent->solve(step_, place.iterate, total)) return result;
       before.iterate.active = place.iterate.active;
       before.iterate.slipping = place.iterate.slipping;
+      before.iterate.slipDirections = place.iterate.slipDirections;
       result.direction = directionWith(*tangent, before, along);
       // No more than a decade at once.
       const double size = -dot(along, difference(place, predicted)) / dot(along, result.direction);

@@ -14,11 +14,13 @@ namespace {
 /// From the solution of Tresca's law under the bounds of the pressure without friction.
 std::optional<FrictionSets> fromFixedBounds(const FrictionSystem& system) {
   constexpr int most = 50;  // where it takes more, the path is shorter
-  const auto& [node, law] = system.problem().along;
+  const auto& [node, law, components] = system.problem().along;
   FrictionSets sets = system.allHeld();
   Vector limit = law.limit;
   for (int repetition = 0; repetition < 2; ++repetition) {
-    const auto solution = system.underBounds(limit).changeSingly(std::move(sets), most);
+    const FrictionSystem bounded = system.underBounds(limit);
+    const auto solution = system.components() > 1 ? bounded.newton(std::move(sets))
+                                                  : bounded.changeSingly(std::move(sets), most);
     if (!solution) return std::nullopt;
     sets = solution->sets;
     limit = law.limit + law.coefficient.cwiseProduct(solution->force(node));
@@ -56,12 +58,15 @@ FrictionSolution solveIndependent(const ContactProblem& problem, const Vector& q
     std::optional<FrictionSets> nearby = fromFixedBounds(system);
     if (nearby) found = system.newton(std::move(*nearby));
   }
-  if (goesOn())
+  if (goesOn() && system.components() > 1) {
+    found = solveBySweeps(system);
+  } else if (goesOn()) {
     followNearby(system, [&](const FrictionSystem& moved) {
       const std::vector<FrictionSets> passages = followPath(moved, 0);
       found = passages.empty() ? std::nullopt : system.newton(passages.front());
       return good();
     });
+  }
   if (!good()) return {};
   work.singular = false;
   return *found;
@@ -108,19 +113,24 @@ FrictionSolution solveOnSprings(const ContactProblem& problem, const Vector& q, 
 
 }  // namespace
 
-FrictionSolution solveFriction(const ContactProblem& problem, Vector q, FrictionSets first,
-                               const Vector& load, std::vector<FrictionSolution>* all) {
+FrictionSolution solveFriction(const ContactProblem& given, Vector q, FrictionSets first, const Vector& load,
+                               std::vector<FrictionSolution>* all) {
   constexpr int repetitions = 15;
   constexpr double softest = 1e-4;  // springs, over those to begin with
   constexpr double mostImbalance = 1e-9;
   constexpr double roundingOfGaps = 1e-5;  // an imbalance of 1e-9 of that is rounding
 
+  const std::optional<ContactProblem> regular =
+      given.along.components > 1 ? std::optional(withoutIdleSlips(given)) : std::nullopt;
+  const ContactProblem& problem = regular ? *regular : given;
   const Matrix& G = problem.G;
   const double compliance = problem.W.diagonal().maxCoeff();
   // What rigid motions take away is taken first, as in solveContact.
   std::vector<char> closed = first.closed;
-  for (size_t k = 0; k < first.slip.size(); ++k)
-    closed.push_back(first.slip[k] == 0 && first.closed[problem.along.node[k]] != 0 ? 1 : 0);
+  for (size_t k = 0; k < first.slip.size(); ++k) {
+    const bool sticks = first.slip[k] == 0 && first.closed[problem.along.node[k]] != 0;
+    closed.insert(closed.end(), problem.along.components, sticks ? 1 : 0);
+  }
   const Vector moved = moveRigidBodiesIntoContact(G, closed, q);
   const double force = load.lpNorm<Eigen::Infinity>();
   Springs springs{load, Vector::Zero(G.cols())};

@@ -1,10 +1,11 @@
 // The contact problem with friction once everything else is condensed away. For the nodal forces p across the
-// contact line and t along it, with x = (p, t), w = (g, v) and the rigid motions z of bodies that contact
+// contact and t along it, with x = (p, t), w = (g, v) and the rigid motions z of bodies that contact
 // alone holds,
 //   w = q + W x - G z,     G' x = load,   0 <= p _|_ g >= 0                (contact)
 //   |t| <= b = mu p + c,   v > 0 => t = -b,   v < 0 => t = b               (friction)
 // where g is the gap, v the slip of the step, W = C S^-1 C' the compliance against both, C = [C_n; C_t].
-// c = 0 is Coulomb's law, mu = 0 is Tresca's.
+// c = 0 is Coulomb's law, mu = 0 is Tresca's. In space t and v of a node are vectors of two components,
+//   |t| <= b,   v != 0 => t = -b v/|v|.
 //
 // Every solution belongs to a set (contact state): conditions are open or closed, nodes stick (v = 0), or
 // slip forwards or backwards (t = b, t = -b); t is the force of the slipping body on the other one, in the
@@ -12,6 +13,11 @@
 // unsymmetric system A. Sets are found by Newton's method on sets and, if that cycles, by a path-following
 // method that terminates (friction_path.cpp): for every positive definite W there is a solution, whatever mu
 // (docs/theory.md).
+//
+// In space the direction d of a slipping node is unknown, too. Newton's method linearises t = b d: along d the
+// force follows the pressure, and across it the node sticks but for the compliance of turning,
+//   t = (mu p + c) d + t_e e,   e . v + |v|/b t_e = 0,   e normal to d.
+// Where it cycles, sweeps of node after node (friction_sweeps.cpp) go before it.
 #pragma once
 
 #include <vector>
@@ -29,11 +35,12 @@ struct Springs {
 
 struct FrictionSets {
   std::vector<char> closed;  ///< by normal condition
-  std::vector<signed char>
-      slip;  ///< by tangential condition, the sign of t, against v; 0: it sticks where it can
+  /// By node with friction: the sign of t, against v, and 1 in space; 0: it sticks where it can.
+  std::vector<signed char> slip;
+  std::vector<SlipDirection> directions = {};  ///< the same in space; empty in the plane
 
   friend bool operator==(const FrictionSets& a, const FrictionSets& b) {
-    return a.closed == b.closed && a.slip == b.slip;
+    return a.closed == b.closed && a.slip == b.slip && a.directions == b.directions;
   }
 };
 

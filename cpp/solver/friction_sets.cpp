@@ -52,6 +52,8 @@ FrictionSystem::FrictionSystem(const ContactProblem& problem, const Vector& q, S
       compliance_(problem.W.diagonal()) {
   for (Eigen::Index i = 0; i < q.size(); ++i)
     if (idle(i)) compliance_[i] = 1;
+  for (Eigen::Index row = normals(); components() > 1 && row < q.size(); row += 2)  // whatever its directions
+    compliance_.segment<2>(row).setConstant(compliance_.segment<2>(row).mean());
 }
 
 FrictionSystem FrictionSystem::underBounds(const Vector& limit) const {
@@ -60,15 +62,16 @@ FrictionSystem FrictionSystem::underBounds(const Vector& limit) const {
   return system;
 }
 
-bool FrictionSystem::sticks(const FrictionSets& sets, Eigen::Index tangential) const {
-  const bool presses = sets.closed[problem_.along.node[tangential]] != 0 || law_.limit[tangential] > 0;
-  return sets.slip[tangential] == 0 && presses && !idle(normals() + tangential);
+bool FrictionSystem::sticks(const FrictionSets& sets, Eigen::Index node) const {
+  const bool presses = sets.closed[problem_.along.node[node]] != 0 || law_.limit[node] > 0;
+  return sets.slip[node] == 0 && presses && !idle(first(node));
 }
 
 void FrictionSystem::holdIdle(FrictionSets& sets) const {
   const Eigen::Index n = normals();
   for (Eigen::Index i = 0; i < n; ++i)
     if (idle(i)) sets.closed[i] = 0;
+  if (components() > 1) return;
   for (Eigen::Index row = n; row < q_.size(); ++row) {
     if (!idle(row)) continue;
     const bool moves = std::abs(q_[row]) > roundingOfForces * q_.lpNorm<Eigen::Infinity>();
@@ -77,7 +80,9 @@ void FrictionSystem::holdIdle(FrictionSets& sets) const {
 }
 
 FrictionSets FrictionSystem::allHeld() const {
-  FrictionSets sets{std::vector<char>(normals(), 1), std::vector<signed char>(problem_.along.node.size(), 0)};
+  const size_t nodes = problem_.along.node.size();
+  FrictionSets sets{std::vector<char>(normals(), 1), std::vector<signed char>(nodes, 0)};
+  if (components() > 1) sets.directions.resize(nodes);
   holdIdle(sets);
   return sets;
 }
@@ -196,6 +201,7 @@ std::optional<FrictionSolution> FrictionSystem::solve(const HeldSystem& equation
 std::optional<FrictionSolution> FrictionSystem::solveOn(const FrictionSets& sets) const {
   const double negligible = problem_.G.cols() > 0 ? 1e-15 : 1e-12;  // as in ActiveFactor
   stopIfInterrupted();
+  if (components() > 1) return solveInSpace(sets);
   const HeldSystem equations(problem_, heldOn(sets), 0, springs_.stiffness);
   work_.solves += equations.size() > 0 ? 1 : 0;
   std::optional<FrictionSolution> trial;
@@ -207,9 +213,9 @@ std::optional<FrictionSolution> FrictionSystem::solveOn(const FrictionSets& sets
   return trial && trial->force.allFinite() ? trial : std::nullopt;
 }
 
-double FrictionSystem::bound(const FrictionSolution& trial, Eigen::Index tangential) const {
-  const double p = std::max(trial.force[problem_.along.node[tangential]], 0.0);
-  return law_.coefficient[tangential] * p + law_.limit[tangential];
+double FrictionSystem::bound(const FrictionSolution& trial, Eigen::Index node) const {
+  const double p = std::max(trial.force[problem_.along.node[node]], 0.0);
+  return law_.coefficient[node] * p + law_.limit[node];
 }
 
 FrictionSets FrictionSystem::next(const FrictionSolution& trial) const {
@@ -219,8 +225,12 @@ FrictionSets FrictionSystem::next(const FrictionSolution& trial) const {
   FrictionSets next = sets;
   for (Eigen::Index i = 0; i < n; ++i)
     next.closed[i] = !idle(i) && (sets.closed[i] != 0 ? trial.force[i] : aim[i]) > 0 ? 1 : 0;
-  for (Eigen::Index k = 0; k < q_.size() - n; ++k) {
-    const Eigen::Index row = n + k;
+  for (Eigen::Index k = 0; k < law_.limit.size(); ++k) {
+    const Eigen::Index row = first(k);
+    if (components() > 1) {
+      nextInSpace(trial, aim, k, next);
+      continue;
+    }
     if (idle(row)) continue;
     const int i = problem_.along.node[k];
     // Of nodes that stick v is 0, of those that slip |t| is the bound, whatever rounding makes of them.
@@ -244,9 +254,16 @@ double FrictionSystem::residual(const FrictionSolution& trial) const {
   for (Eigen::Index i = 0; i < q_.size(); ++i) {
     if (idle(i)) continue;
     scale = std::max({scale, std::abs(trial.force[i]), std::abs(q_[i] / compliance_[i])});
-    const double limit = i < n ? 0 : bound(trial, i - n);
-    const double asked = i < n ? std::max(aim[i], 0.0) : std::clamp(aim[i], -limit, limit);
-    worst = std::max(worst, std::abs(trial.force[i] - asked));
+    if (i < n) worst = std::max(worst, std::abs(trial.force[i] - std::max(aim[i], 0.0)));
+  }
+  const int m = components();
+  for (Eigen::Index k = 0; k < law_.limit.size(); ++k) {
+    const Eigen::Index row = first(k);
+    const double limit = bound(trial, k);
+    if (m > 1)
+      worst = std::max(worst, (trial.force.segment<2>(row) - withinBall(aim.segment<2>(row), limit)).norm());
+    else if (!idle(row))
+      worst = std::max(worst, std::abs(trial.force[row] - std::clamp(aim[row], -limit, limit)));
   }
   return worst > 0 ? worst / scale : 0;
 }
@@ -259,10 +276,14 @@ FrictionSolution FrictionSystem::clipped(FrictionSolution trial) const {
     if (trial.sets.closed[i] != 0) trial.motion[i] = 0;
     trial.force[i] = trial.sets.closed[i] != 0 ? std::max(trial.force[i], 0.0) : 0;
   }
-  for (Eigen::Index k = 0; k < q_.size() - n; ++k) {
-    double& t = trial.force[n + k];
+  for (Eigen::Index k = 0; k < law_.limit.size(); ++k) {
+    double& t = trial.force[first(k)];
     const double limit = bound(trial, k);
-    if (sticks(trial.sets, k)) trial.motion[n + k] = 0;
+    if (components() > 1) {
+      clipInSpace(trial, k);
+      continue;
+    }
+    if (sticks(trial.sets, k)) trial.motion[first(k)] = 0;
     t = sticks(trial.sets, k) ? std::clamp(t, -limit, limit) : trial.sets.slip[k] * limit;
   }
   return trial;

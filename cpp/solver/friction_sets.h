@@ -1,7 +1,7 @@
 // Solves the contact problem with friction (friction.h) on given sets, and finds the next ones by Newton's
 // method: a condition is closed where p - g/W_ii > 0, a node sticks where |t - v/W_ii| <= b (semismooth
-// Newton, Alart and Curnier 1991). Under fixed bounds (Tresca's law) changes of one condition at a time end
-// where Newton's method goes round, as W is a P-matrix (Murty 1974).
+// Newton, Alart and Curnier 1991). Under fixed bounds (Tresca's law) in the plane changes of one condition at
+// a time end where Newton's method goes round, as W is a P-matrix (Murty 1974).
 #pragma once
 
 #include <algorithm>
@@ -48,6 +48,29 @@ class HeldSystem {
   DenseFactor factor_;
 };
 
+/// The contact problem in space with the conditions of each node along and across its direction of slip. Both
+/// are nodes of a plane problem: one that slips and one that sticks, with the compliance of turning.
+class AlignedProblem {
+ public:
+  AlignedProblem(const ContactProblem& problem, const FrictionLaw& law, const FrictionSets& sets);
+  [[nodiscard]] const ContactProblem& problem() const { return problem_; }
+  [[nodiscard]] const FrictionSets& sets() const { return sets_; }
+  /// Forces or motions of all conditions, along and across the directions of slip.
+  [[nodiscard]] Vector aligned(Vector x) const { return turned(std::move(x), 1); }
+  /// The reverse.
+  [[nodiscard]] Vector back(Vector x) const { return turned(std::move(x), -1); }
+  /// -|v|/b t_e by conditions: the motions across the directions of slip under forces. [m]
+  [[nodiscard]] Vector turning(const Vector& force) const { return -turning_.cwiseProduct(force); }
+
+ private:
+  [[nodiscard]] Vector turned(Vector x, int way) const;
+
+  std::vector<Point> directions_;  ///< by node
+  Vector turning_;                 ///< by condition
+  ContactProblem problem_;
+  FrictionSets sets_;
+};
+
 class FrictionSystem {
  public:
   /// \param q  (g, v) without forces. What is given by reference must outlive this.
@@ -67,8 +90,9 @@ class FrictionSystem {
   [[nodiscard]] bool idle(Eigen::Index condition) const { return idle_[condition] != 0; }
   /// Puts what no free motion changes into the sets: open across the line; along it, as the supports slip.
   void holdIdle(FrictionSets& sets) const;
-  /// Whether t of a tangential condition is an unknown on the sets.
-  [[nodiscard]] bool sticks(const FrictionSets& sets, Eigen::Index tangential) const;
+  [[nodiscard]] int components() const { return problem_.along.components; }
+  /// Whether t of a node is an unknown on the sets.
+  [[nodiscard]] bool sticks(const FrictionSets& sets, Eigen::Index node) const;
 
   /// Everything closed and stuck.
   [[nodiscard]] FrictionSets allHeld() const;
@@ -82,16 +106,23 @@ class FrictionSystem {
 
   /// Newton's method from `sets`. \returns the solution, or nothing where sets come back.
   std::optional<FrictionSolution> newton(FrictionSets sets) const;
+  /// The next sets of Newton's method.
+  [[nodiscard]] FrictionSets next(const FrictionSolution& trial) const;
   /// For fixed bounds, in as many solves at most: changes of one condition where Newton's method goes round.
   std::optional<FrictionSolution> changeSingly(FrictionSets sets, int most) const;
 
  private:
   /// Forces and motions as the equations have them. \returns nothing where these are singular.
   [[nodiscard]] std::optional<FrictionSolution> solveOn(const FrictionSets& sets) const;
-  [[nodiscard]] FrictionSets next(const FrictionSolution& trial) const;
+  [[nodiscard]] std::optional<FrictionSolution> solveInSpace(const FrictionSets& sets) const;
+  void nextInSpace(const FrictionSolution& trial, const Vector& aim, Eigen::Index node,
+                   FrictionSets& next) const;
+  void clipInSpace(FrictionSolution& trial, Eigen::Index node) const;
   [[nodiscard]] double residual(const FrictionSolution& trial) const;
-  /// mu p + c of a tangential condition.
-  [[nodiscard]] double bound(const FrictionSolution& trial, Eigen::Index tangential) const;
+  /// mu p + c of a node.
+  [[nodiscard]] double bound(const FrictionSolution& trial, Eigen::Index node) const;
+  /// The first of its conditions.
+  [[nodiscard]] Eigen::Index first(Eigen::Index node) const { return normals() + components() * node; }
   /// The same within its bounds, and exact on its sets.
   [[nodiscard]] FrictionSolution clipped(FrictionSolution trial) const;
 
@@ -103,6 +134,20 @@ class FrictionSystem {
   std::vector<char> idle_;
   Vector compliance_;  ///< diagonal of W; 1 where idle
 };
+
+/// The force within a bound that is nearest to this one.
+inline Point withinBall(const Point& force, double limit) {
+  const double size = force.norm();
+  return size > limit ? Point(limit / size * force) : force;
+}
+
+/// In space: Newton's method after sweeps from zero forces, in which the forces of one node after the other
+/// become those that its own motion demands (friction_sweeps.cpp; Jourdan, Alart and Jean 1998).
+std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system);
+
+/// In space: the same problem with a compliance, small beside the others, along directions in which no free
+/// motion changes the slip of a node.
+ContactProblem withoutIdleSlips(const ContactProblem& problem);
 
 /// The sets by following a path (friction_path.cpp).
 /// \param beyond  how far below 0 tau goes, over the largest |q|/d [-]

@@ -127,6 +127,7 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
         iterate.tieForce[k] += length * (next.tieForce[k] - iterate.tieForce[k]);
       iterate.active = next.active;
       iterate.slipping = next.slipping;
+      iterate.slipDirections = next.slipDirections;
     }
     solution = iterate;
     const int left = maxIterations - total.iterations;

@@ -26,6 +26,15 @@ Iterate startingIterate(const State& state0) {
   iterate.active = startingSets(state0);
   iterate.frictionForce = state0.frictionForce;
   iterate.slipping = state0.slipping;
+  for (size_t k = 0; k < state0.slipping.size(); ++k) {
+    const Vector& t = state0.frictionForce[k];
+    const std::vector<signed char>& slips = state0.slipping[k];
+    iterate.slipDirections.emplace_back(t.size() > static_cast<Eigen::Index>(slips.size()) ? slips.size()
+                                                                                           : 0);
+    for (size_t i = 0; i < iterate.slipDirections.back().size(); ++i)
+      if (slips[i] != 0)
+        iterate.slipDirections.back()[i].along = t.segment<2>(2 * static_cast<Eigen::Index>(i)).normalized();
+  }
   iterate.tieForce = state0.tieForce;
   return iterate;
 }
@@ -140,8 +149,11 @@ std::vector<Vector> frictionWork(const std::vector<Vector>& friction0, const Ite
   std::vector<Vector> work;
   for (size_t k = 0; k < slip1.size(); ++k) {
     work.emplace_back(Vector::Zero(slip1[k].size()));
+    const Eigen::Index components =
+        slip1[k].size() / std::max<Eigen::Index>(1, solution.contactForce[k].size());
     for (Eigen::Index i = 0; i < slip1[k].size(); ++i)
-      if (solution.slipping[k][i] != 0 || solution.contactForce[k][i] <= 0)
+      if (const Eigen::Index row = i / components;
+          solution.slipping[k][row] != 0 || solution.contactForce[k][row] <= 0)
         work[k][i] = (friction0[k][i] * slip0[k][i] + solution.frictionForce[k][i] * slip1[k][i]) / 2;
   }
   return work;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/two_part_vector.h"
+#include "solver/complementarity.h"
 #include "solver/model.h"
 #include "solver/state.h"
 
@@ -42,7 +43,7 @@ struct Step {
 
 /// Per interface and nonmortar node, whether it is held closed.
 using ActiveSets = std::vector<std::vector<char>>;
-/// Per interface with friction and nonmortar node, the sign of t where it slips; 0: it sticks.
+/// Per interface with friction and row, the sign of t where it slips, 1 in space; 0: it sticks.
 using SlipSets = std::vector<std::vector<signed char>>;
 
 /// The unknowns of a body in a step.
@@ -59,6 +60,7 @@ struct Iterate {
   ActiveSets active;
   std::vector<Vector> frictionForce;  ///< t per interface
   SlipSets slipping;
+  std::vector<std::vector<SlipDirection>> slipDirections = {};  ///< the same in space
   /// What the distances g0 change by in the step, per interface; empty where none does [m].
   std::vector<Vector> distanceChange = {};
   double largestTension =
@@ -104,8 +106,8 @@ std::vector<Vector> jumps(const Model& model, const Iterate& iterate);
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
-/// What friction does in a step where nodes slip or contact opens, per interface and node [J/m]: the mean of
-/// force times slip at the beginning and the end of slip.
+/// What friction does in a step where nodes slip or contact opens, per interface and row of T [J/m]: the mean
+/// of force times slip at the beginning and the end of slip.
 /// \param friction0  at the beginning of slip [N/m]
 /// \param slip0, slip1  T du with the rows at the start and at the end
 std::vector<Vector> frictionWork(const std::vector<Vector>& friction0, const Iterate& solution,

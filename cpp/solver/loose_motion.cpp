@@ -7,6 +7,7 @@
 #include "fem/rigid_modes.h"
 #include "solver/contact_sets.h"
 #include "solver/free_rotation.h"
+#include "solver/friction_sets.h"
 #include "solver/step_system.h"
 
 namespace mortier {
@@ -53,9 +54,9 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed[firstRow_[k] + i] = 0;
   }
-  const std::vector<int> slipping = nonStickingRows(solution);
-  for (const int row : slipping) closed[row] = 0;
-  const Matrix loose = rigidMotionsOn(closed, contact_.G).free;
+  const SlidingConditions sliding = slidingConditions(solution);
+  for (const int condition : sliding.conditions) closed[condition] = 0;
+  const Matrix loose = rigidMotionsOn(closed, sliding.G).free;
   Eigen::Index which = 0;
   const auto turns = [&](const Vector& z) {
     const Vector all = ties_.wholeMotion(z);
@@ -70,9 +71,8 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   // Where some nodes would go on to slip and others back, those stick in the end, whichever way it goes.
   double onwards = 0;
   double back = 0;
-  for (const int row : slipping) {
-    const int sign = slipOf(solution, row);
-    const double way = sign * contact_.G.row(row).dot(z);
+  for (size_t k = 0; k < sliding.conditions.size(); ++k) {
+    const double way = sliding.signs[k] * sliding.G.row(sliding.conditions[k]).dot(z);
     onwards = std::max(onwards, way);
     back = std::max(back, -way);
   }
@@ -84,25 +84,21 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   return untouched ? "" : describeRigid(all);
 }
 
-int StepSystem::slipOf(const Iterate& solution, int row) const {
-  size_t k = static_cast<size_t>(row - rows());
-  for (const std::vector<signed char>& part : solution.slipping) {
-    if (k < part.size()) return part[k];
-    k -= part.size();
-  }
-  return 0;
-}
-
-std::vector<int> StepSystem::nonStickingRows(const Iterate& solution) const {
+StepSystem::SlidingConditions StepSystem::slidingConditions(const Iterate& solution) const {
   const Vector p = joined(solution.contactForce);
-  std::vector<int> free;
-  const auto& [node, law] = contact_.along;
+  const FrictionSets sets = joinedSets(solution);
+  const auto& [node, law, components] = contact_.along;
+  SlidingConditions sliding;
+  sliding.G = components == 1 ? contact_.G : AlignedProblem(contact_, law, sets).problem().G;
   for (size_t k = 0; k < node.size(); ++k) {
     const bool bears = p[node[k]] > 0 || law.limit[static_cast<Eigen::Index>(k)] > 0;
-    const int row = rows() + static_cast<int>(k);
-    if (!bears || slipOf(solution, row) != 0) free.push_back(row);
+    if (bears && sets.slip[k] == 0) continue;
+    for (int c = 0; c < (bears ? 1 : components); ++c) {
+      sliding.conditions.push_back(rows() + components * static_cast<int>(k) + c);
+      sliding.signs.push_back(bears ? sets.slip[k] : 0);
+    }
   }
-  return free;
+  return sliding;
 }
 
 std::string StepSystem::describeRigid(const Vector& z) const {

@@ -115,7 +115,7 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
         pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar),
         {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
          [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
-         options.gapMoves, options.mortarCompliance, options.stabilised}));
+         options.gapMoves, options.mortarCompliance, options.stabilised, options.friction}));
     return;
   }
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };

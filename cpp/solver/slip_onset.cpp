@@ -42,19 +42,21 @@ std::vector<Vector> StepSystem::frictionAtSlip(const State& state0, const std::v
   constexpr double together = 0.01;  // of the step
   constexpr int most = 50;
   std::vector<Vector> atSlip = state0.frictionForce;
-  const auto& [node, law] = contact_.along;
+  const auto& [node, law, components] = contact_.along;
   if (node.empty()) return atSlip;
   const Eigen::Index n = rows();
   const Vector after = joined(end.contactForce, end.frictionForce);
   Vector now = joined(state0.contactForce, state0.frictionForce);
   const FrictionSets setsAfter = joinedSets(end);
-  const auto lacks = [&, &law = law, &node = node](const Vector& forces, size_t k) {
+  const auto lacks = [&, &law = law, &node = node, m = components](const Vector& forces, size_t k) {
     const auto row = static_cast<Eigen::Index>(k);
     const double bound = law.coefficient[row] * forces[node[k]] + law.limit[row];
-    return std::max(bound, 0.0) - setsAfter.slip[k] * forces[n + row];
+    const double along = m == 1 ? setsAfter.slip[k] * forces[n + row]
+                                : setsAfter.directions[k].along.dot(forces.segment<2>(n + 2 * row));
+    return std::max(bound, 0.0) - along;
   };
 
-  FrictionSets sets{setsAfter.closed, {}};
+  FrictionSets sets{setsAfter.closed, {}, setsAfter.directions};
   for (const std::vector<signed char>& part : state0.slipping)
     sets.slip.insert(sets.slip.end(), part.begin(), part.end());
   const Vector gap = joined(gap0);
@@ -85,14 +87,14 @@ std::vector<Vector> StepSystem::frictionAtSlip(const State& state0, const std::v
   }
   const Vector moved = joined(across, slips(model_, end));
   // From the solution, whose forces of open conditions are taken away, and whose closed ones go back.
-  const auto forcesOnSets = [&, &node = node] {
+  const auto forcesOnSets = [&, &node = node, m = components] {
     Vector forces = after;
     Vector open = Vector::Zero(forces.size());
     for (Eigen::Index i = 0; i < n; ++i)
       if (sets.closed[i] == 0) std::swap(open[i], forces[i]);
     for (size_t k = 0; k < node.size(); ++k)
-      if (const Eigen::Index row = n + static_cast<Eigen::Index>(k); !acts(k))
-        std::swap(open[row], forces[row]);
+      if (const Eigen::Index row = n + m * static_cast<Eigen::Index>(k); !acts(k))
+        open.segment(row, m).swap(forces.segment(row, m));
     const Vector slack = -moved - contact_.W * open;
     forces += ClosedContact(contact_, sets, false).solve(slack, contact_.G.transpose() * open).change;
     return forces;
@@ -111,9 +113,10 @@ std::vector<Vector> StepSystem::frictionAtSlip(const State& state0, const std::v
     if (first > 1) break;
     const double until = std::min(1.0, first + together);
     take(sticking, until, slipsAt, [&](size_t k) {
-      const auto row = static_cast<Eigen::Index>(k);
+      const int m = contact_.along.components;
+      const Eigen::Index row = m * static_cast<Eigen::Index>(k);
       sets.slip[k] = setsAfter.slip[k];
-      found[row] = now[n + row] + slipsAt(k) * (then[n + row] - now[n + row]);
+      found.segment(row, m) = now.segment(n + row, m) + slipsAt(k) * (then - now).segment(n + row, m);
     });
     take(opening, until, opensAt, [&](size_t i) { sets.closed[i] = 0; });
     now += first * (then - now);

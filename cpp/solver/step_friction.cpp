@@ -9,14 +9,14 @@
 namespace mortier {
 namespace {
 
-/// Whether a node that slips alone has det A = W_nn -+ mu W_nt < 0: pushed along, it would be jammed.
+/// Whether a node that slips alone has det A = W_nn + mu W_nt d < 0 for a direction d: pushed along, it would
+/// be jammed.
 bool jamsAlone(const ContactProblem& problem) {
-  const auto& [node, law] = problem.along;
-  for (size_t k = 0; k < node.size(); ++k) {
+  const auto& [node, law, components] = problem.along;
+  for (Eigen::Index k = 0; k < law.limit.size(); ++k) {
     const int i = node[k];
-    const auto row = static_cast<Eigen::Index>(k);
-    const double coupling = std::abs(problem.W(i, problem.normals() + row));
-    if (problem.W(i, i) < law.coefficient[row] * coupling) return true;
+    const double coupling = problem.W.row(i).segment(problem.normals() + components * k, components).norm();
+    if (problem.W(i, i) < law.coefficient[k] * coupling) return true;
   }
   return false;
 }
@@ -24,12 +24,13 @@ bool jamsAlone(const ContactProblem& problem) {
 }  // namespace
 
 void StepSystem::findFriction() {
-  auto& [node, law] = contact_.along;
+  auto& [node, law, components] = contact_.along;
   std::vector<Vector> coefficients;
   std::vector<Vector> limits;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     if (!interface.hasFriction()) continue;
+    components = interface.slipComponents();
     for (int i = 0; i < interface.rows(); ++i) node.push_back(firstRow_[k] + i);
     coefficients.push_back(Vector::Constant(interface.rows(), interface.friction().coefficient));
     limits.push_back(interface.frictionBound(Vector::Zero(interface.rows())));
@@ -42,7 +43,7 @@ ListedSolution StepSystem::listed(const FrictionSolution& solution) const {
   std::string sets(solution.sets.closed.size(), 'o');
   for (size_t i = 0; i < sets.size(); ++i)
     if (solution.sets.closed[i] != 0) sets[i] = 'c';
-  const auto& [node, law] = contact_.along;
+  const auto& [node, law, components] = contact_.along;
   for (size_t k = 0; k < node.size(); ++k) {
     const bool bears = sets[node[k]] == 'c' || law.limit[static_cast<Eigen::Index>(k)] > 0;
     const signed char slip = solution.sets.slip[k];
@@ -80,6 +81,7 @@ ContactSolution StepSystem::Condensed::solveFriction() const {
   solution.change = found.force - p0;
   solution.active = found.sets.closed;
   solution.slipping = found.sets.slip;
+  solution.directions = found.sets.directions;
   return solution;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/worst.h"
+#include "solver/friction_sets.h"
 #include "solver/model.h"
 #include "solver/state.h"
 #include "solver/uncarried_load.h"
@@ -36,6 +37,8 @@ FrictionSets joinedSets(const Iterate& iterate) {
     sets.closed.insert(sets.closed.end(), part.begin(), part.end());
   for (const std::vector<signed char>& part : iterate.slipping)
     sets.slip.insert(sets.slip.end(), part.begin(), part.end());
+  for (const std::vector<SlipDirection>& part : iterate.slipDirections)
+    sets.directions.insert(sets.directions.end(), part.begin(), part.end());
   return sets;
 }
 
@@ -303,21 +306,32 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     if (p.size() > 0) iterate.largestTension = std::max(iterate.largestTension, -p.minCoeff());
     p = p.cwiseMax(0);
   }
-  Eigen::Index row = 0;
+  Eigen::Index node = 0;
   for (size_t k = 0; k < iterate.contactForce.size(); ++k) {
     const ContactInterface& interface = system_->model_.interfaces[k];
     if (!interface.hasFriction()) continue;
-    iterate.frictionForce[k] = (p0 + contact.change).segment(system_->rows() + row, interface.rows());
-    const auto first = contact.slipping.begin() + row;
+    const int components = interface.slipComponents();
+    Vector& t = iterate.frictionForce[k];
+    t = (p0 + contact.change).segment(system_->rows() + components * node, interface.slipRows());
+    const auto first = contact.slipping.begin() + node;
     iterate.slipping[k].assign(first, first + interface.rows());
+    if (components > 1) {
+      const auto directions = contact.directions.begin() + node;
+      iterate.slipDirections[k].assign(directions, directions + interface.rows());
+    }
     const Vector bound = interface.frictionBound(iterate.contactForce[k]);  // sums have left it by rounding
     for (Eigen::Index i = 0; i < bound.size(); ++i) {
-      double& t = iterate.frictionForce[k][i];
-      if (bound[i] == 0) iterate.slipping[k][i] = 0;
-      const int sign = iterate.slipping[k][i];
-      t = bound[i] == 0 ? 0 : sign == 0 ? std::clamp(t, -bound[i], bound[i]) : sign * bound[i];
+      signed char& slips = iterate.slipping[k][i];
+      if (bound[i] == 0) slips = 0;
+      if (components > 1) {
+        const Point along = iterate.slipDirections[k][i].along;
+        t.segment<2>(2 * i) =
+            slips == 0 ? withinBall(t.segment<2>(2 * i), bound[i]) : Point(bound[i] * along);
+      } else {
+        t[i] = bound[i] == 0 ? 0 : slips == 0 ? std::clamp(t[i], -bound[i], bound[i]) : slips * bound[i];
+      }
     }
-    row += interface.rows();
+    node += interface.rows();
   }
   return true;
 }

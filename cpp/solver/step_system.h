@@ -178,15 +178,19 @@ class StepSystem {
   [[nodiscard]] ContactSolution holdClosed(const ClosedContact& closed,
                                            const TieElimination::Whole& whole) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
-  /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
-  [[nodiscard]] std::vector<int> nonStickingRows(const Iterate& solution) const;
-  [[nodiscard]] int slipOf(const Iterate& solution, int row) const;
+  /// Conditions along contact that resist no motion: their nodes slip, or nothing presses.
+  struct SlidingConditions {
+    std::vector<int> conditions;
+    std::vector<int> signs;  ///< of t; 0 where nothing presses
+    Matrix G;                ///< of all conditions, in space along and across the directions of slip
+  };
+  [[nodiscard]] SlidingConditions slidingConditions(const Iterate& solution) const;
   [[nodiscard]] Vector motionOf(const Vector& z, size_t body) const {
     return z.segment(firstMotion_[body], firstMotion_[body + 1] - firstMotion_[body]);
   }
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   /// Those across contact and those along it.
-  [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
+  [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.conditions()); }
   /// These and the rows of ties.
   [[nodiscard]] int constraints() const { return conditions() + static_cast<int>(ties_.ties()); }
   void findFriction();

@@ -1,6 +1,7 @@
 #include "solver/uncarried_load.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/dense_templates.h"
@@ -10,8 +11,9 @@ namespace {
 
 /// The generators of all forces that contact can exert, as loads on rigid motions, each of length one.
 Matrix directionsOf(const ContactProblem& problem) {
-  const auto& [node, law] = problem.along;
-  const Eigen::Index normals = problem.G.rows() - static_cast<Eigen::Index>(node.size());
+  constexpr int sides = 16;  // of the polygons in the cones of space
+  const auto& [node, law, components] = problem.along;
+  const Eigen::Index normals = problem.G.rows() - problem.along.conditions();
   std::vector<char> slips(normals, 0);
   std::vector<Vector> directions;
   const auto add = [&](const Vector& direction) {
@@ -19,11 +21,15 @@ Matrix directionsOf(const ContactProblem& problem) {
   };
   for (size_t k = 0; k < node.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    const Vector along = problem.G.row(normals + row).transpose();
+    const Matrix along = problem.G.middleRows(normals + components * row, components).transpose();
     slips[node[k]] = 1;
-    for (const int sign : {1, -1}) {
-      add(problem.G.row(node[k]).transpose() + sign * law.coefficient[row] * along);
-      if (law.limit[row] > 0) add(sign * along);
+    const int directionsOfNode = components == 1 ? 2 : sides;
+    for (int i = 0; i < directionsOfNode; ++i) {
+      const double angle = 2 * M_PI * i / directionsOfNode;
+      const Vector way = components == 1 ? Vector((1 - 2 * i) * along)
+                                         : Vector(along * Point(std::cos(angle), std::sin(angle)));
+      add(problem.G.row(node[k]).transpose() + law.coefficient[row] * way);
+      if (law.limit[row] > 0) add(way);
     }
   }
   for (Eigen::Index i = 0; i < normals; ++i)

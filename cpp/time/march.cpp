@@ -255,9 +255,8 @@ State initialState(const Model& model) {
     state.contactForce.push_back(Vector::Zero(interface.rows()));
     state.gap.push_back(interface.gap(state.bodies[pair.nonmortar.body].displacement,
                                       state.bodies[pair.mortar.body].displacement));
-    const int along = interface.hasFriction() ? interface.rows() : 0;
-    state.frictionForce.push_back(Vector::Zero(along));
-    state.slipping.emplace_back(along, static_cast<signed char>(0));
+    state.frictionForce.push_back(Vector::Zero(interface.slipRows()));
+    state.slipping.emplace_back(interface.hasFriction() ? interface.rows() : 0, static_cast<signed char>(0));
     state.frictionWorkOf.push_back(0);
   }
   for (const Tie& tie : model.ties) state.tieForce.push_back(Vector::Zero(tie.rows()));

@@ -154,17 +154,23 @@ SpacePoint resultant(const Model& model, const State& state, size_t interface) {
   return sum;
 }
 
-double frictionCouple(const Model& model, const State& state, size_t interface) {
+SpacePoint frictionCouple(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
-  const auto turned = [&](int body) {  // by a right angle about the origin
-    const std::vector<Point>& places = model.bodies[body].elementNodes().places;
-    Vector u(2 * static_cast<Eigen::Index>(places.size()));
-    for (size_t v = 0; v < places.size(); ++v)
-      u.segment<2>(2 * static_cast<Eigen::Index>(v)) << -places[v].y(), places[v].x();
+  const int dimension = of.dimension();
+  const auto turned = [&](int body, int axis) {  // by a right angle about the origin
+    const Body& turns = model.bodies[body];
+    Vector u(turns.dofs());
+    for (int node = 0; node < turns.nodes(); ++node) {
+      const SpacePoint motion = SpacePoint::Unit(axis).cross(turns.placeOfNode(node));
+      for (int c = 0; c < dimension; ++c) u[dimension * node + c] = motion[c];
+    }
     return u;
   };
-  return -state.frictionForce[interface].dot(
-      of.slip(turned(of.pair().nonmortar.body), turned(of.pair().mortar.body)));
+  SpacePoint couple = SpacePoint::Zero();
+  for (int axis = dimension == 2 ? 2 : 0; axis < 3; ++axis)
+    couple[axis] = -state.frictionForce[interface].dot(
+        of.slip(turned(of.pair().nonmortar.body, axis), turned(of.pair().mortar.body, axis)));
+  return couple;
 }
 
 Certificate worse(const Certificate& a, const Certificate& b) {

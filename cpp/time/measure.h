@@ -30,8 +30,8 @@ Deformation deformationOf(const Body& body, const Vector& displacement);
 SpacePoint resultant(const Model& model, const State& state, size_t interface);
 
 /// The moment that the forces of friction on both bodies leave: t times the distance across which they act,
-/// as meshed, of an interface with friction and not around an axis [N].
-double frictionCouple(const Model& model, const State& state, size_t interface);
+/// as meshed, of an interface with friction and not around an axis; about z in the plane [N].
+SpacePoint frictionCouple(const Model& model, const State& state, size_t interface);
 
 /// Counts how the active sets changed in a step.
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report);

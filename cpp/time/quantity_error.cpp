@@ -138,9 +138,15 @@ class Adjoint {
       const auto& [nonmortar, mortar, coupling] = interface.pair();
       Vector& moved = z[nonmortar.body].displacement;
       const Vector slip = interface.slip(moved, z[mortar.body].displacement);
-      Vector closing = Vector::Zero(slip.size());
-      for (int row = 0; row < interface.rows(); ++row)
-        closing[row] = state_.slipping[k][row] * interface.friction().coefficient * slip[row];
+      Vector closing = Vector::Zero(interface.rows());
+      for (int row = 0; row < interface.rows(); ++row) {
+        if (state_.slipping[k][row] == 0) continue;
+        const double along =
+            interface.dimension() == 2
+                ? state_.slipping[k][row] * slip[row]
+                : on_.slipDirections[k][row].along.dot(slip.segment<2>(Eigen::Index{2} * row));
+        closing[row] = interface.friction().coefficient * along;
+      }
       moved += motionOfRows(interface, model_.bodies[nonmortar.body], closing);
     }
   }

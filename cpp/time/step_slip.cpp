@@ -37,7 +37,7 @@ std::vector<Vector> StepTaker::slipBeforeClosing() const {
   std::vector<Vector> result;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
-    result.emplace_back(Vector::Zero(interface.hasFriction() ? interface.rows() : 0));
+    result.emplace_back(Vector::Zero(interface.slipRows()));
     if (!interface.hasFriction() || interface.follows()) continue;
     const auto [nonmortar, mortar, coupling] = interface.pair();
     struct Motion {
@@ -61,14 +61,16 @@ std::vector<Vector> StepTaker::slipBeforeClosing() const {
       within = motion(state_.time, state_.time + tableau_.stages.front().time * (t1_ - state_.time),
                       bodies[nonmortar.body].increment, bodies[mortar.body].increment);
     }
-    for (Eigen::Index i = 0; i < result[k].size(); ++i) {
+    const int m = interface.slipComponents();
+    for (Eigen::Index i = 0; i < interface.rows(); ++i) {
       const double open = -state_.gap[k][i];
       const bool closes = state_.contactForce[k][i] <= 0 && open > 0 && end.contactForce[k][i] > 0;
       if (!closes || end.slipping[k][i] != 0) continue;
       const bool later = solutions_.size() > 1 && solutions_.front().contactForce[k][i] <= 0;
       const Motion& shown = later ? within : before;
       if (!(shown.time > 0) || !(shown.closing[i] > 0)) continue;
-      result[k][i] = std::min(open / shown.closing[i], (t1_ - state_.time) / shown.time) * shown.slip[i];
+      result[k].segment(m * i, m) =
+          std::min(open / shown.closing[i], (t1_ - state_.time) / shown.time) * shown.slip.segment(m * i, m);
     }
   }
   return result;

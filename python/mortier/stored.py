@@ -119,7 +119,11 @@ def side_of(contact: Any, index: int, interface: dict[str, str]) -> Any:
     """The rows of one interface of results.Contact; what it has no column of is 0."""
     rows = contact.interface == index
     columns = {name: getattr(contact, name) for name in NODAL}
-    found = {name: np.zeros(rows.sum()) if of is None else of[rows] for name, of in columns.items()}
+    axes = contact.position.shape[1]
+
+    def none(name: str) -> Any:
+        return np.zeros((rows.sum(), 3) if axes == 3 and name in ("friction", "shear", "slip") else rows.sum())
+    found = {name: none(name) if of is None else of[rows] for name, of in columns.items()}
     return StoredContact(interface["nonmortar"], interface["mortar"], contact.position[rows],
                          **{name: of.astype(np.int32 if name in ("vertex", "slipping") else float)
                             for name, of in found.items()})
