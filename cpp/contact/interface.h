@@ -103,6 +103,10 @@ struct SpaceInterfaceOptions {
   double mortarCompliance = 0;  ///< of the mortar body in a half-space, (1 - nu^2)/E [1/Pa]
   bool stabilised = false;
   Friction friction = {};
+  /// Unit vectors along which the displacement of a node is zero at all times, as in planes of symmetry.
+  using Fixed = std::function<std::vector<SpacePoint>(int node)>;
+  Fixed nonmortarFixed = {};
+  Fixed mortarFixed = {};
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
@@ -175,7 +179,8 @@ class ContactInterface {
   /// How many rows T has; 0 without friction.
   [[nodiscard]] int slipRows() const { return static_cast<int>(T1_.rows()); }
   /// In space with friction: the directions of slip at the node of each row, normal to that of contact and to
-  /// each other.
+  /// each other. Along those in which both sides are fixed rows are empty: there is no slip, and by symmetry
+  /// no force.
   [[nodiscard]] const std::vector<std::array<SpacePoint, 2>>& tangents() const { return tangents_; }
   [[nodiscard]] const ConstraintRows& T1() const {
     return T1_;

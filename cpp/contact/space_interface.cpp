@@ -91,6 +91,22 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     for (int k = 0; k < 3 && all; ++k) all = options.mortarHeld(mortar.triangles[hit.triangle][k], n);
     return all;
   };
+  std::vector<double> slips;  // by rows of T, 0 where both sides are fixed
+  // The tangents along which a vertex and what faces it are fixed.
+  const auto fixedTangents = [&](int node, const RayHit& hit, const SpacePoint& n) {
+    constexpr double rounding = 1e-9;
+    std::vector<SpacePoint> fixed;
+    if (!options.nonmortarFixed || !options.mortarFixed || hit.triangle < 0) return fixed;
+    for (const SpacePoint& d : options.nonmortarFixed(node)) {
+      bool across = std::abs(d.dot(n)) < rounding && (fixed.empty() || std::abs(d.dot(fixed[0])) < rounding);
+      for (int k = 0; k < 3 && across; ++k)
+        across = std::abs(hit.mu[k]) < rounding ||
+                 std::ranges::any_of(options.mortarFixed(mortar.triangles[hit.triangle][k]),
+                                     [&](const SpacePoint& e) { return d.cross(e).norm() < rounding; });
+      if (across) fixed.push_back(d);
+    }
+    return fixed;
+  };
   for (auto& [key, vertex] : vertices) {
     if (!vertex.faces) continue;
     const SpacePoint n = refinement.directionAt(vertex);
@@ -109,7 +125,12 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     vertex.rows.emplace_back(static_cast<int>(result.nonmortarNodes_.size()), 1);
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
-    if (slipRows > 0) result.tangents_.push_back(tangentsTo(n));
+    if (slipRows > 0) {
+      const std::vector<SpacePoint> fixed = fixedTangents(key.first, hit, n);
+      result.tangents_.push_back(fixed.empty() ? tangentsTo(n)
+                                               : std::array<SpacePoint, 2>{fixed[0], n.cross(fixed[0])});
+      for (size_t a = 0; a < 2; ++a) slips.push_back(a < fixed.size() ? 0 : 1);
+    }
     hits.push_back(hit);
     distances.push_back(hit.triangle < 0 ? infinity
                                          : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu));
@@ -311,6 +332,10 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       const Vector mean = factor.solve(distance);
       result.distance_ = mean.cwiseMax(least.cwiseMin(result.distance_));
     }
+  }
+  for (ConstraintRows* T : {&result.T1_, &result.T2_}) {
+    *T = Eigen::Map<const Vector>(slips.data(), T->rows()).asDiagonal() * *T;
+    T->prune(0.0);
   }
   if (pair.coupling != CouplingKind::interpolation) {
     PressureCompliance yielding = pressureCompliance(surfaceRows, result.lengths_, options.mortarCompliance);

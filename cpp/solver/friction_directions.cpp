@@ -3,8 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "solver/friction_sets.h"
 
 namespace mortier {
@@ -32,35 +34,33 @@ AlignedProblem::AlignedProblem(const ContactProblem& problem, const FrictionLaw&
       along.law.limit[row] = sets.slip[k] != 0 && !slips ? 0 : law.limit[k];
     }
   }
-  const auto turn = [&](auto&& pairs) {  // columns, or of the transposed matrix rows
-    for (Eigen::Index k = 0; k < nodes; ++k) {
-      const Point& d = directions_[k];
-      if (d.y() == 0 && d.x() == 1) continue;
-      Matrix two(problem_.W.rows(), 2);
-      two << d.x() * pairs.col(n + 2 * k) + d.y() * pairs.col(n + 2 * k + 1),
-          d.x() * pairs.col(n + 2 * k + 1) - d.y() * pairs.col(n + 2 * k);
-      pairs.middleCols(n + 2 * k, 2) = two;
-    }
-  };
-  turn(problem_.W);
-  problem_.W.transposeInPlace();
-  turn(problem_.W);
-  problem_.W.transposeInPlace();
-  problem_.W.diagonal() += turning_;
-  for (Eigen::Index z = 0; z < problem_.G.cols(); ++z) problem_.G.col(z) = aligned(problem.G.col(z));
+  Matrix& W = problem_.W;
+  Vector along1(W.rows());
+  for (Eigen::Index k = 0; k < nodes; ++k) {
+    const Point& d = directions_[k];
+    if (d.y() == 0 && d.x() == 1) continue;
+    auto first = W.col(n + 2 * k);
+    auto second = W.col(n + 2 * k + 1);
+    along1 = d.x() * first + d.y() * second;
+    second = d.x() * second - d.y() * first;
+    first = along1;
+  }
+  for (Eigen::Index column = 0; column < W.cols(); ++column) turn(W.col(column), 1);
+  W.diagonal() += turning_;
+  for (Eigen::Index z = 0; z < problem_.G.cols(); ++z) turn(problem_.G.col(z), 1);
 }
 
-Vector AlignedProblem::turned(Vector x, int way) const {
+void AlignedProblem::turn(Eigen::Ref<Vector> x, int way) const {
   const Eigen::Index n = problem_.normals();
   for (size_t k = 0; k < directions_.size(); ++k) {
     const Point& d = directions_[k];
     auto pair = x.segment<2>(n + 2 * static_cast<Eigen::Index>(k));
     pair = Point(d.x() * pair.x() + way * d.y() * pair.y(), d.x() * pair.y() - way * d.y() * pair.x());
   }
-  return x;
 }
 
 std::optional<FrictionSolution> FrictionSystem::solveInSpace(const FrictionSets& sets) const {
+  stopIfInterrupted();
   const AlignedProblem aligned(problem_, law_, sets);
   const Vector q = aligned.aligned(q_);
   std::optional<FrictionSolution> trial =
@@ -70,6 +70,43 @@ std::optional<FrictionSolution> FrictionSystem::solveInSpace(const FrictionSets&
   trial->force = aligned.back(std::move(trial->force));
   trial->sets = sets;
   return trial;
+}
+
+/// Where the law is further from being fulfilled, forces stay nearer to those before.
+std::optional<FrictionSolution> FrictionSystem::newtonInSpace(FrictionSets sets) const {
+  constexpr int most = 60;
+  constexpr int patience = 3;    // steps of no use
+  constexpr double less = 1e-4;  // of the part of the step
+  constexpr double shortest = 1e-3;
+  const auto sizeOff = [&](const FrictionSolution& trial) {
+    return offLaw(trial).cwiseProduct(compliance_.cwiseSqrt()).norm();
+  };
+  FrictionSolution here;
+  double before = std::numeric_limits<double>::infinity();
+  holdIdle(sets);
+  for (int solve = 0, vain = 0; solve < most && vain < patience; ++solve) {
+    const std::optional<FrictionSolution> trial = solveInSpace(sets);
+    if (!trial) return std::nullopt;
+    fprintf(stderr, "%d off %g before %g closed %d slip %d\n", solve, residual(*trial), before,
+            (int)std::count(sets.closed.begin(), sets.closed.end(), 1),
+            (int)std::count(sets.slip.begin(), sets.slip.end(), 1));
+    if (residual(*trial) <= roundingOfForces) return clipped(*trial);
+    FrictionSolution ahead = *trial;
+    double size = sizeOff(ahead);
+    for (double part = 1; !(size <= (1 - less * part) * before) && part > shortest; size = sizeOff(ahead)) {
+      part /= 2;
+      ahead.force = here.force + part * (trial->force - here.force);
+      ahead.motion = here.motion + part * (trial->motion - here.motion);
+      // The next sets follow from forces and motions together, as of nodes that neither stick nor press.
+      ahead.sets.closed.assign(sets.closed.size(), 0);
+      ahead.sets.slip.assign(sets.slip.size(), 1);
+    }
+    vain = size < before ? 0 : vain + 1;
+    before = size;
+    sets = next(ahead);
+    here = std::move(ahead);
+  }
+  return std::nullopt;
 }
 
 void FrictionSystem::nextInSpace(const FrictionSolution& trial, const Vector& aim, Eigen::Index node,
@@ -84,7 +121,8 @@ void FrictionSystem::nextInSpace(const FrictionSolution& trial, const Vector& ai
   next.directions[node] = {};
   if (next.slip[node] == 0 || !(size > 0)) return;
   // t - v/W = (b + |v|/W) d
-  next.directions[node] = {force / size, compliance_[row] * std::min(most, std::max(size - limit, 0.0) / limit)};
+  next.directions[node] = {force / size,
+                           compliance_[row] * std::min(most, std::max(size - limit, 0.0) / limit)};
 }
 
 void FrictionSystem::clipInSpace(FrictionSolution& trial, Eigen::Index node) const {

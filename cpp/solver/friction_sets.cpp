@@ -13,9 +13,6 @@
 namespace mortier {
 namespace {
 
-/// Residuals of sets that are right, and of those that differ by ties, are below it [-].
-constexpr double roundingOfForces = 1e-13;
-
 signed char signOf(double value) {
   return static_cast<signed char>((value > 0 ? 1 : 0) - (value < 0 ? 1 : 0));
 }
@@ -201,7 +198,6 @@ std::optional<FrictionSolution> FrictionSystem::solve(const HeldSystem& equation
 std::optional<FrictionSolution> FrictionSystem::solveOn(const FrictionSets& sets) const {
   const double negligible = problem_.G.cols() > 0 ? 1e-15 : 1e-12;  // as in ActiveFactor
   stopIfInterrupted();
-  if (components() > 1) return solveInSpace(sets);
   const HeldSystem equations(problem_, heldOn(sets), 0, springs_.stiffness);
   work_.solves += equations.size() > 0 ? 1 : 0;
   std::optional<FrictionSolution> trial;
@@ -246,25 +242,28 @@ FrictionSets FrictionSystem::next(const FrictionSolution& trial) const {
   return next;
 }
 
-double FrictionSystem::residual(const FrictionSolution& trial) const {
+Vector FrictionSystem::offLaw(const FrictionSolution& trial) const {
   const Eigen::Index n = normals();
   const Vector aim = trial.force - trial.motion.cwiseQuotient(compliance_);
-  double worst = 0;
-  double scale = 0;
-  for (Eigen::Index i = 0; i < q_.size(); ++i) {
-    if (idle(i)) continue;
-    scale = std::max({scale, std::abs(trial.force[i]), std::abs(q_[i] / compliance_[i])});
-    if (i < n) worst = std::max(worst, std::abs(trial.force[i] - std::max(aim[i], 0.0)));
-  }
-  const int m = components();
+  Vector asked = trial.force;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!idle(i)) asked[i] = std::max(aim[i], 0.0);
   for (Eigen::Index k = 0; k < law_.limit.size(); ++k) {
     const Eigen::Index row = first(k);
     const double limit = bound(trial, k);
-    if (m > 1)
-      worst = std::max(worst, (trial.force.segment<2>(row) - withinBall(aim.segment<2>(row), limit)).norm());
+    if (components() > 1)
+      asked.segment<2>(row) = withinBall(aim.segment<2>(row), limit);
     else if (!idle(row))
-      worst = std::max(worst, std::abs(trial.force[row] - std::clamp(aim[row], -limit, limit)));
+      asked[row] = std::clamp(aim[row], -limit, limit);
   }
+  return trial.force - asked;
+}
+
+double FrictionSystem::residual(const FrictionSolution& trial) const {
+  const double worst = offLaw(trial).lpNorm<Eigen::Infinity>();
+  double scale = 0;
+  for (Eigen::Index i = 0; i < q_.size(); ++i)
+    if (!idle(i)) scale = std::max({scale, std::abs(trial.force[i]), std::abs(q_[i] / compliance_[i])});
   return worst > 0 ? worst / scale : 0;
 }
 
@@ -290,6 +289,7 @@ FrictionSolution FrictionSystem::clipped(FrictionSolution trial) const {
 }
 
 std::optional<FrictionSolution> FrictionSystem::newton(FrictionSets sets) const {
+  if (components() > 1) return newtonInSpace(std::move(sets));
   constexpr int patience = 20;
   std::vector<FrictionSets> before;
   int fewest = std::numeric_limits<int>::max();

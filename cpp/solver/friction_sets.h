@@ -15,6 +15,9 @@
 
 namespace mortier {
 
+/// Residuals of sets that are right, and of those that differ by ties, are below it [-].
+constexpr double roundingOfForces = 1e-13;
+
 /// The conditions of given sets whose forces are unknown: closed ones and nodes that stick. The force of a
 /// slipping node follows that across it.
 struct HeldConditions {
@@ -56,14 +59,20 @@ class AlignedProblem {
   [[nodiscard]] const ContactProblem& problem() const { return problem_; }
   [[nodiscard]] const FrictionSets& sets() const { return sets_; }
   /// Forces or motions of all conditions, along and across the directions of slip.
-  [[nodiscard]] Vector aligned(Vector x) const { return turned(std::move(x), 1); }
+  [[nodiscard]] Vector aligned(Vector x) const {
+    turn(x, 1);
+    return x;
+  }
   /// The reverse.
-  [[nodiscard]] Vector back(Vector x) const { return turned(std::move(x), -1); }
+  [[nodiscard]] Vector back(Vector x) const {
+    turn(x, -1);
+    return x;
+  }
   /// -|v|/b t_e by conditions: the motions across the directions of slip under forces. [m]
   [[nodiscard]] Vector turning(const Vector& force) const { return -turning_.cwiseProduct(force); }
 
  private:
-  [[nodiscard]] Vector turned(Vector x, int way) const;
+  void turn(Eigen::Ref<Vector> x, int way) const;
 
   std::vector<Point> directions_;  ///< by node
   Vector turning_;                 ///< by condition
@@ -118,6 +127,9 @@ class FrictionSystem {
   void nextInSpace(const FrictionSolution& trial, const Vector& aim, Eigen::Index node,
                    FrictionSets& next) const;
   void clipInSpace(FrictionSolution& trial, Eigen::Index node) const;
+  [[nodiscard]] std::optional<FrictionSolution> newtonInSpace(FrictionSets sets) const;
+  /// The forces less those that the law demands of them and of the motions.
+  [[nodiscard]] Vector offLaw(const FrictionSolution& trial) const;
   [[nodiscard]] double residual(const FrictionSolution& trial) const;
   /// mu p + c of a node.
   [[nodiscard]] double bound(const FrictionSolution& trial, Eigen::Index node) const;

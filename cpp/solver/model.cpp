@@ -108,6 +108,19 @@ SpaceContactMesh spaceMeshOf(const Body& body) {
 
 }  // namespace
 
+/// Directions in which the displacement of a node is zero at all times.
+std::vector<SpacePoint> fixedDirections(const Body& body, int node) {
+  const std::vector<NodeSupport>& supports = body.supports().nodes();
+  const auto found = std::ranges::lower_bound(supports, node, {}, &NodeSupport::node);
+  std::vector<SpacePoint> fixed;
+  if (found == supports.end() || found->node != node) return fixed;
+  for (int i = 0; i < found->count; ++i) {
+    const Datum& value = body.conditions().displacements[found->conditions[i]].value;
+    if (value.constant() && value(found->place, 0) == 0) fixed.push_back(found->directions[i]);
+  }
+  return fixed;
+}
+
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const auto& [nonmortar, mortar] = bodiesOf(model, pair);
   if (nonmortar.space() != nullptr) {
@@ -115,7 +128,9 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
         pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar),
         {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
          [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
-         options.gapMoves, options.mortarCompliance, options.stabilised, options.friction}));
+         options.gapMoves, options.mortarCompliance, options.stabilised, options.friction,
+         [&](int node) { return fixedDirections(nonmortar, node); },
+         [&](int node) { return fixedDirections(mortar, node); }}));
     return;
   }
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };

@@ -11,7 +11,7 @@ namespace {
 
 /// The generators of all forces that contact can exert, as loads on rigid motions, each of length one.
 Matrix directionsOf(const ContactProblem& problem) {
-  constexpr int sides = 16;  // of the polygons in the cones of space
+  constexpr int sides = 16;  // of the polygons around the cones of space
   const auto& [node, law, components] = problem.along;
   const Eigen::Index normals = problem.G.rows() - problem.along.conditions();
   std::vector<char> slips(normals, 0);
@@ -23,11 +23,12 @@ Matrix directionsOf(const ContactProblem& problem) {
     const auto row = static_cast<Eigen::Index>(k);
     const Matrix along = problem.G.middleRows(normals + components * row, components).transpose();
     slips[node[k]] = 1;
-    const int directionsOfNode = components == 1 ? 2 : sides;
-    for (int i = 0; i < directionsOfNode; ++i) {
-      const double angle = 2 * M_PI * i / directionsOfNode;
+    const int corners = components == 1 ? 2 : sides;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * M_PI * i / corners;
       const Vector way = components == 1 ? Vector((1 - 2 * i) * along)
-                                         : Vector(along * Point(std::cos(angle), std::sin(angle)));
+                                         : Vector(along * Point(std::cos(angle), std::sin(angle)) /
+                                                  std::cos(M_PI / corners));
       add(problem.G.row(node[k]).transpose() + law.coefficient[row] * way);
       if (law.limit[row] > 0) add(way);
     }
