@@ -87,9 +87,6 @@ std::optional<FrictionSolution> FrictionSystem::newtonInSpace(FrictionSets sets)
   for (int solve = 0, vain = 0; solve < most && vain < patience; ++solve) {
     const std::optional<FrictionSolution> trial = solveInSpace(sets);
     if (!trial) return std::nullopt;
-    fprintf(stderr, "%d off %g before %g closed %d slip %d\n", solve, residual(*trial), before,
-            (int)std::count(sets.closed.begin(), sets.closed.end(), 1),
-            (int)std::count(sets.slip.begin(), sets.slip.end(), 1));
     if (residual(*trial) <= roundingOfForces) return clipped(*trial);
     FrictionSolution ahead = *trial;
     double size = sizeOff(ahead);

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import accuracies
 from mutations import require_whole
+from space_friction_test import dragged
 from support import HANGS, PROGRAM, ROOT, InFolder, mortier
 
 SCENE = str(ROOT / "scenes/compression.toml")
@@ -163,6 +164,15 @@ class Restart(InFolder):
             self.stop(scene, "--out", f"out/killed-{after}", after=after)
             self.run_mortier("--restart", f"out/killed-{after}")
             self.expect_same("out/whole", f"out/killed-{after}")
+
+    def test_friction_in_space_goes_on_to_the_byte(self):
+        for number, steps in enumerate(("steps = 40", "tolerance = 2e-3")):
+            (self.folder / "scene.toml").write_text(dragged(30).replace("steps = 10", steps))
+            self.run_mortier("scene.toml", "--out", f"out/whole-{number}")
+            for after in (5, 12):
+                self.stop("scene.toml", "--out", f"out/killed-{number}-{after}", after=after)
+                self.run_mortier("--restart", f"out/killed-{number}-{after}")
+                self.expect_same(f"out/whole-{number}", f"out/killed-{number}-{after}")
 
     def test_killed_on_meshes_that_are_worth_threads(self):
         for name, cells, lower, upper in (("upper.mesh", 66, "0,0", "1,1"),

@@ -227,10 +227,11 @@ DIFFERENT = {
        for key, value in (("focus", "[0, 0]"), ("grading", 2), ("corners", "[0, 0]"), ("inner", 1),
                           ("outer", 2), ("span", "full"), ("lowest", "[0, 0]"), ("core", 0.1))},
     "body.boundary.ut": refused(NOT_IN_SPACE, "body.upper.boundary.3.ut=0"),
-    "contact.friction": refused("friction", "contact.friction=0.3"),
-    "contact.shear_limit": refused("friction", "contact.shear_limit=0.3"),
+    "contact.friction": added("contact.friction=0.3"),
+    "contact.shear_limit": added("contact.shear_limit=0.3"),
     "contact.sliding": refused('sliding = "finite"', "contact.sliding=finite"),
-    "quantity.friction_work": refused("friction_work", quantity("friction_work={body='upper', label=1}")),
+    "quantity.friction_work": either("quantity", *(f"[{{name='floor', {text}}}]" for text in (
+        "friction_work={body='upper', label=1}", "work={body='upper'}")), "contact.friction=0.3"),
     "quantity.contact_length": refused("contact_area with dimension = 3",
                                        quantity("contact_length={body='upper', label=1}")),
     **{f"quantity.mean_pressure.{key}": refused(NOT_IN_SPACE, quantity(

@@ -11,7 +11,7 @@
 #include "solver/friction.h"
 #include "unit/enumerated_friction.h"
 
-namespace mortier::friction_test {
+namespace mortier::friction_in_space_test {
 namespace {
 
 struct SpaceCase {
@@ -30,9 +30,10 @@ SpaceCase randomCase(std::mt19937& random, int n, double mu, double limit, bool 
   const Eigen::Index rows = 3 * n;
   Matrix A = Matrix::NullaryExpr(rows, rows, noise);
   if (thin)
-    for (Eigen::Index j = 0; j < rows; ++j) A.col(j) *= std::pow(10, -3.0 * j / rows);
+    for (Eigen::Index j = 0; j < rows; ++j)
+      A.col(j) *= std::pow(10, -3.0 * static_cast<double>(j) / static_cast<double>(rows));
   SpaceCase c;
-  c.problem.W = A * A.transpose() / rows;
+  c.problem.W = A * A.transpose() / static_cast<double>(rows);
   c.problem.W.diagonal().array() += 1e-3;
   c.problem.G.resize(rows, 0);
   c.problem.along = {allNodes(n), {Vector::Constant(n, mu), Vector::Constant(n, limit)}, 2};
@@ -154,4 +155,4 @@ TEST(FrictionInSpace, linearResponseIsTheDerivative) {
 }
 
 }  // namespace
-}  // namespace mortier::friction_test
+}  // namespace mortier::friction_in_space_test
