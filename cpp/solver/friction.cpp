@@ -7,6 +7,7 @@
 
 #include "solver/contact_sets.h"
 #include "solver/friction_sets.h"
+#include "solver/uncarried_load.h"
 
 namespace mortier {
 namespace {
@@ -59,7 +60,7 @@ FrictionSolution solveIndependent(const ContactProblem& problem, const Vector& q
     if (nearby) found = system.newton(std::move(*nearby));
   }
   if (goesOn() && system.components() > 1) {
-    found = solveBySweeps(system);
+    if (problem.G.cols() == 0 || !uncarriedLoad(problem, springs.load)) found = solveBySweeps(system);
   } else if (goesOn()) {
     followNearby(system, [&](const FrictionSystem& moved) {
       const std::vector<FrictionSets> passages = followPath(moved, 0);

@@ -8,19 +8,18 @@
 namespace mortier {
 
 std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
-  constexpr int rounds = 40;  // Newton's method after each
-  constexpr int sweeps = 25;  // of a round
+  constexpr int first = 25;  // sweeps before Newton's method is tried, then twice as many
+  constexpr int most = 1600;
+  constexpr double stiff = 0.1;  // springs, over the stiffness of contact
   const ContactProblem& problem = system.problem();
   const auto& [node, law, components] = problem.along;
-  const Springs& springs = system.springs();
-  // w = q + W x - G z, z = z0 + (load - G' x)/stiffness
+  const Matrix& G = problem.G;
+  // w = q + W x - G z, z = z0 + (load - G' x)/stiffness, z0 taken anew after each sweep
   Matrix W = problem.W;
+  Vector z = system.springs().z0;
+  const double stiffness = stiff * G.squaredNorm() / W.diagonal().maxCoeff();
+  if (G.cols() > 0) W += G * G.transpose() / stiffness;
   FrictionSolution trial;
-  trial.motion = system.q();
-  if (problem.G.cols() > 0) {
-    W += problem.G * problem.G.transpose() / springs.stiffness;
-    trial.motion -= problem.G * (springs.z0 + springs.load / springs.stiffness);
-  }
   trial.force = Vector::Zero(W.rows());
   trial.sets = system.allHeld();
   trial.sets.slip.assign(trial.sets.slip.size(), 1);
@@ -30,8 +29,15 @@ std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
   };
   std::vector<std::vector<Eigen::Index>> nodesOf(system.normals());
   for (size_t k = 0; k < node.size(); ++k) nodesOf[node[k]].push_back(static_cast<Eigen::Index>(k));
-  for (int sweep = 1; sweep <= rounds * sweeps; ++sweep) {
+  int next = first;
+  for (int sweep = 1; sweep <= most; ++sweep) {
     stopIfInterrupted();
+    trial.motion = system.q() + problem.W * trial.force - G * z;
+    if (G.cols() > 0) {
+      const Vector unbalanced = (system.springs().load - G.transpose() * trial.force) / stiffness;
+      trial.motion -= G * unbalanced;
+      z += unbalanced;
+    }
     for (Eigen::Index i = 0; i < system.normals(); ++i) {
       if (!system.idle(i)) move(i, std::max(-trial.force[i], -trial.motion[i] / W(i, i)));
       for (const Eigen::Index k : nodesOf[i]) {
@@ -44,7 +50,8 @@ std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
         move(row + 1, change.y());
       }
     }
-    if (sweep % sweeps != 0) continue;
+    if (sweep < next) continue;
+    next *= 2;
     if (std::optional<FrictionSolution> found = system.newton(system.next(trial)); found && found->index > 0)
       return found;
   }
