@@ -102,9 +102,9 @@ void refuseBesideTies(const TableReader& table, const SceneDescription& scene) {
   refuse(scene.accuracy.bound, "accuracy.bound");
 }
 
-/// Conditions are stabilised where the scene leaves the choice of rows to the program.
+/// Conditions are stabilised where the scene leaves the choice of rows to the program; ties never are.
 void readStabilised(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
-  const bool other = contact.variant == CouplingKind::interpolation || scene.accuracy.bound;
+  const bool other = contact.tied || contact.variant == CouplingKind::interpolation || scene.accuracy.bound;
   contact.stabilised =
       table.has("stabilised") ? table.boolean("stabilised") : !table.has("variant") && !other;
   if (!contact.stabilised || !other) return;

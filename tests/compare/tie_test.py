@@ -130,6 +130,65 @@ steps = 4
 """
 
 
+# A slider, a body or a tool, slides far on a layer, which is tied to a plate.
+BODY = """\
+[[body]]
+name = "slider"
+mesh = { shape = "rectangle", lower = [0.4, 0.2], upper = [1, 0.5], cells = [7, 4] }
+material = { young = 2e5, poisson = 0.3 }
+boundary = [ { label = 3, ux = "0.6*t", uy = "-0.004*min(5*t, 1)" } ]
+"""
+TOOL = """\
+[[tool]]
+name = "slider"
+shape = "rectangle"
+lower = [0.4, 0.2]
+upper = [1, 0.5]
+ux = "0.6*t"
+uy = "-0.004*min(5*t, 1)"
+"""
+SLIDER = """\
+plane = "strain"
+PUSHED
+[[body]]
+name = "layer"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 0.2], cells = [40, 4] }
+material = { young = 1e3, poisson = 0.4 }
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [0, -0.5], upper = [2, 0], cells = [26, 7] }
+material = { young = 7e4, poisson = 0.3 }
+HELD
+[[contact]]
+friction = 0.2
+sliding = "finite"
+nonmortar = { body = "layer", label = 3 }
+mortar = { body = "slider", label = 1 }
+[[contact]]
+kind = "tied"
+nonmortar = { body = "layer", label = 1 }
+mortar = { body = "plate", label = 3 }
+SECOND
+[time]
+end = 1
+steps = 5
+"""
+BOTTOM = "boundary = [ { label = 1, ux = 0, uy = 0 } ]"
+BASE = f"""\
+[[body]]
+name = "base"
+mesh = {{ shape = "rectangle", lower = [0, -0.8], upper = [2, -0.5], cells = [17, 4] }}
+material = {{ young = 3e4, poisson = 0.2 }}
+{BOTTOM}
+"""
+BELOW = """\
+[[contact]]
+kind = "tied"
+nonmortar = { body = "base", label = 3 }
+mortar = { body = "plate", label = 1 }
+"""
+
+
 # Half a ring on a plate, tied at one foot, the other one pressed into the plate.
 ARCH = """\
 plane = "strain"
@@ -273,9 +332,15 @@ class Ties(InFolder):
 
     def test_freefem_agrees_on_a_tie_beside_contact_with_friction(self):
         self.write(LAYER)
-        for variant in ("mortar", "interpolation"):
-            with self.subTest(variant=variant):
-                self.mortier("compare", "scene.toml", "--set", f"contact.variant={variant}")
+        for options in ((), ("--set", "contact.variant=mortar"), ("--set", "contact.variant=interpolation")):
+            with self.subTest(options=options):
+                self.mortier("compare", "scene.toml", *options)
+
+    def test_freefem_agrees_on_ties_beside_contact_that_slides_far(self):
+        for pushed, held, below in ((BODY, BOTTOM, ""), (TOOL, BOTTOM, ""), (BODY, BASE, BELOW)):
+            with self.subTest(pushed=pushed, below=below):
+                self.write(SLIDER.replace("PUSHED", pushed).replace("HELD", held).replace("SECOND", below))
+                self.mortier("compare", "scene.toml")
 
     def test_what_a_tie_refuses(self):
         self.write(HEAD)
