@@ -24,6 +24,17 @@ Eigen::Matrix<double, n, n> elasticityTensor(const Elasticity& elasticity) {
   return shear * Eigen::Matrix<double, n, n>::Identity() + (bulk - shear) * volume * volume.transpose();
 }
 
+/// A x, column by column: a product of matrices rounds by how many columns they have.
+template <int rows, int n>
+Matrix times(const Eigen::Matrix<double, rows, n>& A, const Eigen::Ref<const Matrix>& x) {
+  Matrix y(rows, x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Eigen::Matrix<double, n, 1> column = x.col(i);
+    y.col(i) = Eigen::Matrix<double, rows, 1>(A * column);
+  }
+  return y;
+}
+
 template <int n>
 class OwnMaterial final : public Material {
  public:
@@ -101,7 +112,7 @@ class OwnMaterial final : public Material {
     rate.middleCols(begin, end - begin) = at.rate;
   }
   void elasticStrain(const Matrix& stress, Matrix& strain, int begin, int end) const override {
-    strain.middleCols(begin, end - begin) = C_ * stress.middleCols(begin, end - begin);
+    strain.middleCols(begin, end - begin) = times(C_, stress.middleCols(begin, end - begin));
   }
   [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(const PathStart& start,
                                                            std::vector<int> points) const override {
@@ -137,15 +148,15 @@ class OwnMaterial final : public Material {
   void evaluate(Points& at, Matrix* slopes) const {
     const Eigen::Index points = at.stress.cols();
     Matrix strain = Matrix::Zero(tensorRows, points);
-    if (needsTotalStrain() && at.total.size() > 0) strain = componentsBy<n>() * at.total;
+    if (needsTotalStrain() && at.total.size() > 0) strain = times(componentsBy<n>(), at.total);
     if (n == 3) strain.row(3).setConstant(std::numeric_limits<double>::quiet_NaN());
     Matrix rate(tensorRows, points);
     if (slopes != nullptr) slopes->resize(law_->slopeRows(tensorRows), points);
-    const Matrix stress = componentsBy<n>() * at.stress;
+    const Matrix stress = times(componentsBy<n>(), at.stress);
     law_->evaluate(stress, strain, rate, slopes);
     if (slopes != nullptr) law_->takeSlopesBeside(stress, strain, E_.norm(), *slopes);
     if (n == 3) rate.row(3).setZero();
-    at.rate = byComponents<n>() * rate;
+    at.rate = times(byComponents<n>(), rate);
   }
 
   /// Derivatives by components as those by the basis.
@@ -162,13 +173,13 @@ class OwnMaterial final : public Material {
     const int count = end - begin;
     Local local{Points(stress.middleCols(begin, count)), std::vector<Solved>(count)};
     const Matrix start = step.stress0.middleCols(begin, count);
-    Matrix rhs = step.strain.middleCols(begin, count) + C_ * start;
-    if (compliances > 1) rhs += C_ * local.points.stress;
+    Matrix rhs = step.strain.middleCols(begin, count) + times(C_, start);
+    if (compliances > 1) rhs += times(C_, local.points.stress);
     if (needsTotalStrain())
       local.points.total = step.strain0->middleCols(begin, count) + step.strain.middleCols(begin, count);
     const Problem problem{step.weight, compliances, rhs};
     if (!(step.weight > 0)) {
-      local.points.stress = E_ * rhs / compliances;
+      local.points.stress = times(E_, rhs) / compliances;
       for (Solved& each : local.solved) each = {0, 0, Vec::Zero(), E_ / compliances};
       return local;
     }
@@ -254,7 +265,7 @@ class OwnMaterial final : public Material {
     if (stuck.empty()) return;
     const Local before = local;
     for (const int i : stuck) local.solved[i] = Solved();
-    takeBetter(problem, stuck, E_ * problem.rhs / problem.compliances, local);
+    takeBetter(problem, stuck, times(E_, problem.rhs) / problem.compliances, local);
     descend(problem, stuck, manyShort, local);
     for (const int i : stuck)
       if (!(local.solved[i].residual <= before.solved[i].residual)) {

@@ -78,7 +78,7 @@ class Accuracy(InFolder):
         """Standard output and summary.json."""
         self.write(scene)
         done = self.mortier("run", "scene.toml", "--out", "out", *arguments, code=code)
-        return done, json.loads(self.read("out/summary.json"))
+        return done, self.summary_of()
 
     def test_an_accuracy_is_reached_and_told(self):
         done, summary = self.run_scene(PUNCH)
@@ -163,7 +163,7 @@ largest_pressure = { body = "block", label = 3 }
         self.write(PUNCH[:PUNCH.index("[accuracy]")], "plain.toml")
         self.mortier("run", "plain.toml", "--out", "again", "--set", "body.punch.mesh=out/punch.mesh",
                      "body.block.mesh=out/block.mesh")
-        again = json.loads(self.read("again/summary.json"))
+        again = self.summary_of("again")
         self.assertEqual(again["dofs"], summary["dofs"])
         for key in ("contact_force", "elastic_energy", "von_mises_max"):
             self.assertAlmostEqual(again["final"][key] / summary["final"][key], 1, delta=1e-9)
@@ -190,7 +190,7 @@ largest_pressure = { body = "block", label = 3 }
         self.write(PUNCH + "[output]\nevery = 1\n")
         done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.01",
                             "--set", "solver.max_iterations=1", code=1)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         accuracy, rounds = summary["accuracy"], summary["rounds"]
         self.assertRegex(done.stderr,
                          f"accuracy 0.01 not reached: round {len(rounds) + 1}: step 1 .* did not converge")
@@ -216,7 +216,7 @@ largest_pressure = { body = "block", label = 3 }
                             "time.tolerance=1e-7", "time.scheme=sdirk2", code=1, timeout=30)
         self.assertIn("max_seconds are over; the state after step", done.stderr)
         self.assertEqual(self.names("."), ["out.failed", "scene.toml"])
-        self.assertFalse(json.loads(self.read("out.failed/summary.json"))["accuracy"]["reached"])
+        self.assertFalse(self.summary_of("out.failed")["accuracy"]["reached"])
 
     def test_bodies_that_flow_get_their_steps_too(self):
         _, summary = self.run_scene(FLOWING)

@@ -1,6 +1,5 @@
 """Runs with a guaranteed bound of their error: what they report, and when there is none."""
 import cmath
-import json
 import re
 import unittest
 
@@ -49,7 +48,7 @@ class Bound(OfTwoBlocks):
         """Standard output and accuracy of summary.json."""
         self.write(scene + BOUND)
         done = self.mortier("run", "scene.toml", "--out", "out", *arguments)
-        return done.stdout, json.loads(self.read("out/summary.json"))["accuracy"]
+        return done.stdout, self.summary_of()["accuracy"]
 
     def test_mortar_is_exact_and_interpolation_is_not(self):
         log, accuracy = self.bound(ELASTIC)
@@ -106,7 +105,7 @@ component = "y"
         log = self.mortier("run", "scene.toml", "--out", "out", "--set",
                            "contact.variant=interpolation").stdout
         found = {name: each["bound"]
-                 for name, each in json.loads(self.read("out/summary.json"))["quantities"].items()}
+                 for name, each in self.summary_of()["quantities"].items()}
         self.assertRegex(log, r"mean \S+ Pa \+- \S+ \(guaranteed\), peak \S+ Pa at \S+ \S+ \+- \S+ "
                               r"\(an estimate\), sinks \S+ m \+- \S+ \(an estimate\)\n")
         self.assertLessEqual(found["mean"]["lower"], 10 * (1 + 1e-12))
@@ -114,7 +113,7 @@ component = "y"
         for name in ("peak", "sinks"):
             self.assertIsNone(found[name]["error"])
             self.assertGreater(found[name]["estimate"], 0)
-        summary = json.loads(self.read("out/summary.json"))["quantities"]
+        summary = self.summary_of()["quantities"]
         self.assertLessEqual(abs(summary["peak"]["value"] - 10), 3 * found["peak"]["estimate"])
         exact = -(1 + 0.8) * 10 / 3e11  # both blocks are pressed alike
         self.assertLessEqual(abs(summary["sinks"]["value"] - exact), found["sinks"]["estimate"])
@@ -125,16 +124,14 @@ component = "y"
                          "--upper", f"1,{y + 1}", f"{body}.mesh")
         peaks = []
         for bound in ("", BOUND):
-            self.write(ELASTIC + bound)
-            self.mortier("run", "scene.toml", "--out", "out", "--set", "contact.variant=interpolation")
-            peaks.append(json.loads(self.read("out/summary.json"))["peak_memory_mib"])
+            peaks.append(self.run_it(ELASTIC + bound, "contact.variant=interpolation")["peak_memory_mib"])
         self.assertLessEqual(peaks[1], 1.5 * peaks[0])
 
     def test_not_asked_for_is_not_told(self):
         self.write(ELASTIC + HELD_AND_PRESSED)
         log = self.mortier("run", "scene.toml", "--out", "out").stdout
         self.assertNotIn("guaranteed", log)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         self.assertNotIn("bound", summary["accuracy"])
         self.assertNotIn("bound", summary["quantities"]["held"])
 
@@ -174,7 +171,7 @@ component = "y"
         for bound in ("false", "true"):
             self.mortier("run", "scene.toml", "--out", bound, "--accuracy", "0.05", "--set",
                          f"accuracy.bound={bound}")
-            summary = json.loads(self.read(f"{bound}/summary.json"))
+            summary = self.summary_of(bound)
             self.assertTrue(summary["accuracy"]["reached"])
             unknowns.append(summary["rounds"][-1]["unknowns"])
         self.assertTrue(0.02 < summary["accuracy"]["bound"]["energy_error"] < 0.05)
@@ -193,7 +190,7 @@ displacement = { body = "upper", point = [0.25, 1] }
 component = "y"
 """
         log, _ = self.bound(ELASTIC + asked, "--set", "contact.variant=interpolation")
-        found = json.loads(self.read("out/summary.json"))["quantities"]
+        found = self.summary_of()["quantities"]
         for name, exact in (("held", 10), ("pressed", -10), ("sinks", -20 / 3e11)):
             value, bound = found[name]["value"], found[name]["bound"]
             self.assertLessEqual(bound["lower"], exact + 1e-12 * abs(exact))
@@ -208,12 +205,12 @@ component = "y"
         self.assertIn("displacements at a point have none", found["at"]["bound"]["reason"])
         # Those of the last round, whose meshes are finer.
         self.bound(ELASTIC + asked, "--accuracy", "0.5")
-        found = json.loads(self.read("out/summary.json"))["quantities"]["pressed"]
+        found = self.summary_of()["quantities"]["pressed"]
         self.assertLessEqual(abs(found["value"] + 10), found["bound"]["error"] + 1e-10)
         self.assertLess(found["bound"]["error"], 1e-6)
         # Where there is no bound of the energy there is none of quantities.
         log, _ = self.bound(ELASTIC + asked, "--set", "degree=2")
-        found = json.loads(self.read("out/summary.json"))["quantities"]["held"]["bound"]
+        found = self.summary_of()["quantities"]["held"]["bound"]
         self.assertEqual(found, {"error": None, "reason": "displacements are quadratic"})
 
     def test_wrong_values_are_refused(self):

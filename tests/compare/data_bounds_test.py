@@ -1,5 +1,4 @@
 """Bounds of scenes whose data are not linear on sides, or constant on triangles (data_bounds.py)."""
-import json
 import statistics
 import unittest
 
@@ -38,7 +37,7 @@ class DataBounds(InFolder):
     def bound(self, top, more="", body="", contact="", bottom="0", settings=()):
         self.write(BLOCKS.format(top=top, more=more, body=body, contact=contact, bottom=bottom))
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", *settings)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         return summary["accuracy"]["bound"], summary["quantities"]["f"]
 
     def test_what_lies_between_the_nodes_is_in_the_bound(self):

@@ -52,16 +52,14 @@ class DataInTime(OfTwoBlocks):
                          "the last result is in out$")
         self.assertIn("(tolerance 0.001, not reached)", done.stdout)
         self.assertEqual(self.names("."), ["lower.mesh", "out", "scene.toml", "upper.mesh"])
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         self.assertEqual(summary["status"], "converged")
         self.assertRegex(summary["reason"], why)
         self.assertFalse(summary["accuracy"]["time_reached"])
         self.assertGreater(summary["accuracy"]["time"], 1e-3)
 
     def test_a_tolerance_that_is_reached(self):
-        self.write(TWO_BLOCKS.replace("steps = 4", 'scheme = "sdirk2"\ntolerance = 1e-3'))
-        self.mortier("run", "scene.toml", "--out", "out")
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.run_it(TWO_BLOCKS.replace("steps = 4", 'scheme = "sdirk2"\ntolerance = 1e-3'))
         self.assertTrue(summary["accuracy"]["time_reached"])
         self.assertNotIn("reason", summary)
 

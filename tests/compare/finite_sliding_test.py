@@ -1,6 +1,4 @@
 """Contact that follows the bodies (sliding = "finite"), end to end."""
-import csv
-import json
 import math
 import statistics
 import unittest
@@ -90,10 +88,6 @@ steps = 20
 
 
 class FiniteSliding(InFolder):
-    def history(self, folder="out"):
-        with open(self.folder / folder / "history.csv", newline="") as file:
-            return list(csv.DictReader(file))
-
     def column(self, rows, name):
         return [float(next(row[key] for key in row if key.split("[")[0] == name)) for row in rows]
 
@@ -105,7 +99,7 @@ class FiniteSliding(InFolder):
                 self.write(disc.replace("FRICTION", friction).replace("TURNS", ""))
                 done = self.mortier("run", "scene.toml", "--quiet", "--out", "out")
                 self.assertNotIn("taken as small", done.stderr)
-                rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
+                rows = [row for row in self.rows_of("out/history.csv") if float(row["time[s]"]) > 0.3]
                 force = [abs(value) for value in self.column(rows, "contact_resultant_y")]
                 mean = statistics.mean(force)
                 self.assertLess(max(abs(value - mean) for value in force), most * mean)
@@ -119,7 +113,7 @@ class FiniteSliding(InFolder):
         for steps in (25, 50, 100):
             self.mortier("run", "scene.toml", "--quiet", "--out", f"out{steps}", "--set",
                          f"time.steps={steps}")
-            rows = self.history(f"out{steps}")
+            rows = self.rows_of(f"out{steps}/history.csv")
             energy, friction, *work = (self.column(rows, name)[-1]
                                        for name in ("elastic_energy", "friction_work_0", "work_cylinder",
                                                     "work_block"))
@@ -132,7 +126,7 @@ class FiniteSliding(InFolder):
             self.write(PUSHED.replace("DEGREE", str(degree)).replace("ROUGH", "0.2")
                        .replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
             self.mortier("run", "scene.toml", "--quiet", "--out", "out")
-            rows = self.history()
+            rows = self.rows_of("out/history.csv")
             self.assertEqual(int(rows[-1]["active"]), 0)
             self.assertGreater(int(rows[4]["active"]), 0)
 
@@ -159,8 +153,7 @@ class FiniteSliding(InFolder):
     def test_estimates_under_error_control_are_those_of_equal_steps(self):
         self.write(TOOL.replace("FRICTION", "friction = 0.3").replace("TURNS", ""))
         for steps in ("time.steps=25", "time.tolerance=0.02"):
-            self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", steps, "output.every=1")
-            accuracy = json.loads(self.read("out/summary.json"))["accuracy"]
+            accuracy = self.run_it(None, steps, "output.every=1")["accuracy"]
             self.assertLess(accuracy["largest_of_run"]["energy_error"], 1.3 * accuracy["energy_error"])
 
     # Rows are taken anew after the last linear solve of a step: its compliances were not, and the slip that
@@ -175,7 +168,7 @@ class FiniteSliding(InFolder):
                              *settings)
                 self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "time.tolerance=0.02",
                              *settings)
-                equal, chosen = (json.loads(self.read(f"{out}/summary.json")) for out in ("equal", "out"))
+                equal, chosen = (self.summary_of(out) for out in ("equal", "out"))
                 for name in ("contact_force", "friction_work"):
                     self.assertAlmostEqual(chosen["final"][name] / equal["final"][name], 1, delta=0.02)
                 self.assertLess(chosen["steps"], 80)
@@ -186,9 +179,7 @@ class FiniteSliding(InFolder):
             with self.subTest(degree=degree):
                 self.write(PUSHED.replace("DEGREE", str(degree)).replace("ROUGH", "0.2")
                            .replace("HELD", 'uy = "-1e-3*min(10*t,1)"').replace("poisson = 0.3 }", flow))
-                self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "time.tolerance=0.05",
-                             "time.scheme=sdirk2", "time.end=0.4")
-                done = json.loads(self.read("out/summary.json"))
+                done = self.run_it(None, "time.tolerance=0.05", "time.scheme=sdirk2", "time.end=0.4")
                 self.assertGreater(done["final"]["contact_force"], 0)
                 self.assertTrue(done["accuracy"]["time_reached"])
 
@@ -207,7 +198,7 @@ class FiniteSliding(InFolder):
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
         self.assertRegex(done.stderr, "; bodies have turned by [0-9.e+]+ degrees, taken as small")
         self.assertRegex(done.stderr, r"contact [a-z ]*cannot hold body block: (rotation|translation) ")
-        self.assertEqual(json.loads(self.read("out.failed/summary.json"))["status"], "unheld")
+        self.assertEqual(self.summary_of("out.failed")["status"], "unheld")
 
     # Seeds whose load passes the last condition that is closed: near the end of the other body (160), or
     # within an element of the edge of the upper one.
@@ -229,14 +220,14 @@ class FiniteSliding(InFolder):
                          "and sides touch where they make 120 or more")
                 self.assertRegex(done.stderr, limit)
                 self.assertNotIn("swap", done.stderr)  # tools refuse it
-                summary = json.loads(self.read("out.failed/summary.json"))
+                summary = self.summary_of("out.failed")
                 self.assertEqual(summary["status"], "unheld")
                 self.assertGreater(summary["steps"], 3)
 
     def test_a_hook_snaps(self):
         """The forces on each face of the nose, a polygon, have its direction and that of friction."""
         self.mortier("run", str(ROOT / "scenes" / "hook.toml"), "--quiet", "--out", "out")
-        rows = self.history()
+        rows = self.rows_of("out/history.csv")
         way = [2.3 * value for value in self.column(rows, "time")]
         push, lift = self.column(rows, "push"), self.column(rows, "lift")
         for degrees, first, last in ((30, 0.25, 0.7), (0, 1.25, 1.55), (-60, 1.78, 1.92)):
@@ -257,7 +248,7 @@ class FiniteSliding(InFolder):
                 self.write(scene)
                 self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--accuracy", str(error),
                              "--set", "time.steps=5", *settings)
-                self.assertLess(json.loads(self.read("out/summary.json"))["accuracy"]["energy_error"], error)
+                self.assertLess(self.summary_of()["accuracy"]["energy_error"], error)
 
     def test_strains_that_are_not_small_are_told(self):
         self.write(IRONING.replace("FRICTION", "").replace("-0.05", "-0.5"))
@@ -268,7 +259,7 @@ class FiniteSliding(InFolder):
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "time.end=0.2", "--set",
                             "time.steps=4")
         self.assertIn("scene.toml: strains reach", done.stderr)
-        peaks = json.loads(self.read("out/summary.json"))["peaks"]
+        peaks = self.summary_of()["peaks"]
         self.assertGreater(peaks["strain"]["value"], 0.05)
         self.assertGreater(peaks["rotation"]["value"], 0)
 

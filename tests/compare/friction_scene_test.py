@@ -1,11 +1,9 @@
 """Friction as a user meets it: columns, quantities, and what does not support it."""
-import csv
-import json
 import re
 import unittest
 
 from scenes import FRICTION_KEYS, TWO_BLOCKS
-from support import ROOT, OfTwoBlocks
+from support import ROOT, OfTwoBlocks, values
 
 SPUN = """
 [[body]]
@@ -50,10 +48,8 @@ WORKS = "[time]\nend = 2\n" + "".join(
 
 class FrictionScene(OfTwoBlocks):
     def run_it(self, *settings):
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "output.every=1", *arguments)
-        rows = list(csv.DictReader(self.read("out/contact.csv").splitlines()))
-        return rows, json.loads(self.read("out/summary.json"))
+        summary = super().run_it(None, "output.every=1", *settings)
+        return self.rows_of("out/contact.csv"), summary
 
     def test_nodes_stick_or_slip_within_their_bounds(self):
         self.write(FRICTION_KEYS)
@@ -78,7 +74,7 @@ class FrictionScene(OfTwoBlocks):
     def test_its_work_is_told_by_interfaces(self):
         self.write(FRICTION_KEYS)
         _, summary = self.run_it()
-        history = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        history = self.rows_of("out/history.csv")
         parts = [float(history[-1][f"friction_work_{k}[J/m]"]) for k in range(2)]
         self.assertGreater(min(parts), 0)
         self.assertAlmostEqual(sum(parts) / summary["final"]["friction_work"], 1, places=14)
@@ -112,8 +108,8 @@ class FrictionScene(OfTwoBlocks):
         """Of friction, and what is missing in the balance of energy, over the work of the supports."""
         self.write(scene + WORKS)
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", f"time.steps={steps}")
-        summary = json.loads(self.read("out/summary.json"))
-        value = {name: each["value"] for name, each in summary["quantities"].items()}
+        summary = self.summary_of()
+        value = values(summary)
         external = value["external1"] + value["external2"]
         done = external + summary["final"].get("gap_work", 0)
         friction = summary["final"]["friction_work"]
@@ -184,7 +180,7 @@ end = 1
 steps = 1
 """)
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--list-solutions")
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         [step] = summary["several_solutions"]
         self.assertEqual(step["step"], 1)
         self.assertEqual([each["index"] for each in step["solutions"]].count(-1),
@@ -199,7 +195,7 @@ steps = 1
         log = self.mortier("run", "scene.toml", "--out", "out", "--set", "contact.friction=0.1",
                            "solver.list_solutions=true").stdout
         self.assertNotIn("solutions", log)
-        self.assertEqual(json.loads(self.read("out/summary.json"))["several_solutions"], [])
+        self.assertEqual(self.summary_of()["several_solutions"], [])
 
     def test_a_block_on_a_slope_slides_at_the_angle_of_friction(self):
         """The slope of the scene is 1/2; nothing else holds the upper block."""
@@ -240,7 +236,7 @@ steps = 1
         self.reject("scene.toml: tolerance = 0.2, expected equal steps, or those of a run (--steps-of) "
                     "(all that the FreeFEM method knows)", "freefem", "scene.toml", "scene.edp", *chosen)
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", *chosen)
-        times = [float(row["time[s]"]) for row in csv.DictReader(self.read("out/history.csv").splitlines())]
+        times = [float(row["time[s]"]) for row in self.rows_of("out/history.csv")]
         self.mortier("freefem", "scene.toml", "scene.edp", "--steps-of", "out", *chosen)
         script = self.read("scene.edp")
         written = re.search(r"stepEnds = \[([^]]*)\]", script).group(1)

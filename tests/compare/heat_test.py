@@ -1,9 +1,8 @@
 """Thermal strain and distances in time, as a user meets them, against exact values."""
-import csv
 import unittest
 
 from scenes import ELASTIC_KEYS, lower_heat
-from support import OfScene
+from support import InFolder, value
 
 # A block between two walls, or in a corner.
 BLOCK = """\
@@ -103,13 +102,13 @@ steps = 22
 """
 
 
-class Heat(OfScene):
+class Heat(InFolder):
     def test_free_expansion_has_no_stress(self):
         for plane, part in (("stress", 1), ("strain", 1.3)):
             summary = self.run_it(BLOCK.replace("PLANE", plane).replace("BESIDE", ""))
             if plane == "stress":
                 self.assertLess(summary["final"]["von_mises_max"], 1e-10)
-            self.assertAlmostEqual(self.value(summary, "grows"), 2*1e-3*part, delta=1e-15)
+            self.assertAlmostEqual(value(summary, "grows"), 2*1e-3*part, delta=1e-15)
 
     def test_laws_see_the_mechanical_strain(self):
         """What expands freely neither flows nor relaxes, whatever the scheme."""
@@ -120,7 +119,7 @@ class Heat(OfScene):
                 with self.subTest(law=law, scheme=scheme):
                     summary = self.run_it(text.replace("poisson = 0.3", "poisson = 0.3, " + law), scheme)
                     self.assertLess(summary["peaks"]["von_mises"]["value"], 1e-9)
-                    self.assertAlmostEqual(self.value(summary, "grows"), 2e-3, delta=1e-14)
+                    self.assertAlmostEqual(value(summary, "grows"), 2e-3, delta=1e-14)
 
     def test_a_bar_between_walls(self):
         """s11 = -E alpha T, in plane strain -E alpha T/(1 - nu); heat is the only work."""
@@ -129,13 +128,13 @@ class Heat(OfScene):
                 with self.subTest(plane=plane, scheme=scheme):
                     text = BLOCK.replace("PLANE", plane).replace("BESIDE", ", { label = 2, ux = 0 }")
                     summary = self.run_it(text, f"time.scheme={scheme}")
-                    self.assertAlmostEqual(self.value(summary, "wall"), 100*part, delta=1e-10)
-                    stored = self.value(summary, "stored")
-                    heat = self.value(summary, "heat")
-                    self.assertAlmostEqual(stored, heat + self.value(summary, "work"), delta=1e-13)
+                    self.assertAlmostEqual(value(summary, "wall"), 100*part, delta=1e-10)
+                    stored = value(summary, "stored")
+                    heat = value(summary, "heat")
+                    self.assertAlmostEqual(stored, heat + value(summary, "work"), delta=1e-13)
                     if plane == "stress":
                         self.assertAlmostEqual(stored, 0.5*100*1e-3*2, delta=1e-13)
-                    self.assertLess(abs(self.value(summary, "work")), 1e-13)
+                    self.assertLess(abs(value(summary, "work")), 1e-13)
 
     def test_nodal_temperatures_are_linear_between(self):
         """A temperature that is linear in x and y strains as its expression does."""
@@ -151,8 +150,8 @@ class Heat(OfScene):
         of_file = text.replace('temperature = "100*t"', table)
         by_file = self.run_it(of_file)
         for name in ("heat", "stored", "wall", "grows"):
-            one = self.value(by_datum, name)
-            self.assertLessEqual(abs(self.value(by_file, name) - one), 1e-12*abs(one))
+            one = value(by_datum, name)
+            self.assertLessEqual(abs(value(by_file, name) - one), 1e-12*abs(one))
         self.write("1\n2\n", "heat.txt")
         self.refuse(of_file, f"has 2, expected {count} finite numbers, one for each vertex of the mesh")
         self.refuse(of_file, "expected a datum beside accuracy", "accuracy.energy=0.1")
@@ -187,14 +186,14 @@ class Heat(OfScene):
                         text = text.replace('temperature = "0*t"\n', "")
                     exact = self.lame(plane, shaft, hub)
                     self.assertGreater(exact, 0)
-                    pressure = self.value(self.run_it(text), "pressure")
+                    pressure = value(self.run_it(text), "pressure")
                     self.assertAlmostEqual(pressure/exact, 1, delta=2e-3)
 
     def test_a_fit_that_comes_loose_is_named(self):
         text = FIT.replace("PLANE", "stress").replace('"SHAFT"', "0").replace("HUB", "60*t")
         text = text.replace('temperature = 0\n', "")
         self.assertLess(self.lame("stress", 0, 60), 0)
-        self.assertEqual(self.value(self.run_it(text), "pressure"), 0)
+        self.assertEqual(value(self.run_it(text), "pressure"), 0)
         # Whole rings: nothing but the fit and a point hold the shaft.
         held = "boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]"
         free = text.replace(held, "point = [ { at = [10, 0], uy = 0 } ]", 1)
@@ -203,13 +202,13 @@ class Heat(OfScene):
                               ("[10, 8]", "[40, 8]")):
             free = free.replace(before, after)
         # The hub is held outside: its hole grows where it cools.
-        self.assertGreater(self.value(self.run_it(free), "pressure"), 0)
+        self.assertGreater(value(self.run_it(free), "pressure"), 0)
         self.write(free.replace("60*t", "-60*t"))
         errors = self.mortier("run", "scene.toml", "--quiet", "--out", "free", code=3).stderr
         self.assertIn("no closed contact holds body shaft: ", errors)
 
 
-class Distance(OfScene):
+class Distance(InFolder):
     def test_a_plate_between_two_blocks(self):
         """Each block takes half of what the plate is thicker than the gap; the plate does the work."""
         for variant in ("mortar", "interpolation", "weighted"):
@@ -219,7 +218,7 @@ class Distance(OfScene):
                     settings = [f"contact.variant={variant}", f"degree={degree}"] + (
                         ["body.lower.mesh.cells=[3, 3]"] if variant == "interpolation" else [])
                     summary = self.run_it(SHIM, *settings, "output.every=1")
-                    rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+                    rows = self.rows_of("out/history.csv")
                     for row in rows:
                         t = float(row["time[s]"])
                         gap = 0.001 - 0.011*t if t <= 1 else -0.01 + 0.011*(t - 1)
@@ -232,12 +231,12 @@ class Distance(OfScene):
                     self.assertLess(abs(summary["final"]["gap_work"]), 1e-15)
                     at_one = self.run_it(SHIM, *settings, "time.end=1", "time.steps=11")
                     self.assertAlmostEqual(at_one["final"]["gap_work"], 2*stored, delta=1e-15)
-                    contact = list(csv.DictReader(self.read("out/contact.csv").splitlines()))
+                    contact = self.rows_of("out/contact.csv")
                     self.assertTrue(all(abs(float(row["gap"])) < 1e-14 for row in contact))
 
     def test_steps_chosen_by_their_error_end_at_its_kinks(self):
         self.run_it(SHIM, "time.tolerance=1e-3", "time.scheme=sdirk2")
-        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        rows = self.rows_of("out/history.csv")
         self.assertTrue(any(float(row["time[s]"]) == 1 for row in rows))
 
     def test_a_bound_of_the_error_is_refused(self):
@@ -245,7 +244,7 @@ class Distance(OfScene):
                     "accuracy.bound=true")
 
 
-class AllKeys(OfScene):
+class AllKeys(InFolder):
     def test_threads_change_nothing(self):
         self.write(lower_heat(18), "lower.heat")
         self.run_it(ELASTIC_KEYS, folder="one")

@@ -3,7 +3,7 @@ import itertools
 import math
 import unittest
 
-from support import OfScene
+from support import InFolder
 from results import kept_steps, read_history, read_mortier  # behind support: it is in compare/
 
 STATIC = """\
@@ -94,7 +94,7 @@ DECAY = {  # by which a step of z = k/tau multiplies what relaxes
 }
 
 
-class JumpAtStart(OfScene):
+class JumpAtStart(InFolder):
     def ends_of(self, text, *settings):
         self.run_it(text, *settings)
         return read_mortier(self.folder / "out")

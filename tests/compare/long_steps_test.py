@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from support import OfScene
+from support import InFolder, value
 
 YIELD, VISCOSITY, LOAD, STEPS, END = 0.1, 10, math.pi / 10, 2, 1 / 30
 SCENE = f"""\
@@ -40,7 +40,7 @@ LAWS = {
 }
 
 
-class LongSteps(OfScene):
+class LongSteps(InFolder):
     def solve(self, **choices):
         law = LAWS[choices.pop("law")]
         summary = self.run_it(SCENE.format(law=law, **choices), folder=f"out{len(self.names())}")
@@ -55,7 +55,7 @@ class LongSteps(OfScene):
                 summary = self.solve(plane="strain", law=law, scheme=scheme)
                 self.assertLessEqual(summary["newton_iterations"], 25, (law, scheme))
                 if law in ("viscoplastic", "Perzyna") and scheme == "backward-euler":
-                    self.assertAlmostEqual(self.value(summary, "top") / (-2 * rate * END), 1, delta=1e-6)
+                    self.assertAlmostEqual(value(summary, "top") / (-2 * rate * END), 1, delta=1e-6)
 
     def test_about_an_axis(self):
         for scheme in ("backward-euler", "crank-nicolson"):

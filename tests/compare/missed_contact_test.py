@@ -1,6 +1,5 @@
 """First meshes in space that are too coarse for a contact: the run warns of the overlap, and rounds of
 refinement find the contact."""
-import json
 import unittest
 
 from support import InFolder
@@ -41,7 +40,7 @@ class MissedContact(InFolder):
     def test_an_accuracy_finds_it(self):
         log = self.mortier("run", "scene.toml", "--accuracy", "0.08", "--out", "out").stdout
         self.assertNotIn("warning", log)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         self.assertTrue(summary["accuracy"]["reached"])
         self.assertTrue(summary["overlap"]["explained"])
         self.assertAlmostEqual(summary["quantities"]["force"]["value"] / FORCE, 1, delta=0.02)
@@ -55,7 +54,7 @@ class MissedContact(InFolder):
         overlap = "bodies ball and block overlap by 0.02 at (0, 0, -0.02): no contact presses there"
         self.assertIn("warning    " + overlap, log)
         self.assertNotIn("never touched", log)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         self.assertFalse(summary["overlap"]["explained"])
         self.assertIn(overlap, summary["accuracy"]["not_reliable"])
 

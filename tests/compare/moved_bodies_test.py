@@ -1,7 +1,7 @@
 """Bodies that move before they touch: what rounding leaves of their motion is no stress, whatever the law."""
 import unittest
 
-from support import OfScene
+from support import InFolder
 
 # A round body above a block, at a distance of 2e-3 below which it moves by 3e-3.
 ROUND = """\
@@ -116,7 +116,7 @@ steps = 2
 """
 
 
-class MovedBodies(OfScene):
+class MovedBodies(InFolder):
     def test_a_body_of_any_law_approaches_another_touches_and_leaves_it(self):
         for name, law in LAWS.items():
             for motion in ("-3e-3*t", "-3e-3*sin(pi*t)", "3e-3*t"):

@@ -1,6 +1,4 @@
 """Laws of one's own, as expressions: runs beside the built-in laws that they repeat; mortier law."""
-import csv
-import json
 import math
 import unittest
 
@@ -97,7 +95,7 @@ class OwnLaw(InFolder):
         self.write(SCENE.replace("PLANE", plane).format(law=law))
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "body.upper.volume=pointwise",
                      *settings)
-        return list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        return self.rows_of("out/history.csv")
 
     def compare(self, name, plane, *settings):
         built_in, own, _ = PAIRS[name]
@@ -137,7 +135,7 @@ class OwnLaw(InFolder):
             self.mortier("run", "scene.toml", "--quiet", "--out", name, "--threads", threads)
         results = []
         for name in ("one", "two"):
-            rows = list(csv.DictReader(self.read(f"{name}/history.csv").splitlines()))
+            rows = self.rows_of(f"{name}/history.csv")
             results.append([[row[column] for column in COMPARED] for row in rows])
         self.assertEqual(*results)
 
@@ -204,7 +202,7 @@ steps = 6
         return self.mortier("run", "scene.toml", "--quiet", "--out", "out", *changes, code=code)
 
     def rows(self):
-        rows = csv.DictReader(self.read("out/history.csv").splitlines())
+        rows = self.rows_of("out/history.csv")
         return [{name: value if name == "rung" else float(value) for name, value in row.items()}
                 for row in rows]
 
@@ -225,7 +223,7 @@ steps = 6
             for growth in self.GROWTHS:
                 with self.subTest(plane, growth=growth):
                     self.solved(growth, 0.5, plane=plane, cells=2, settings=["time.steps=3"])
-                    summary = json.loads(self.read("out/summary.json"))
+                    summary = self.summary_of()
                     self.assertLess(summary["peaks"]["contact_force"]["value"], 1e3 / 2 / (1 - 0.09) * 0.03)
                     self.assertTrue(all(value <= 1e-8 for value in summary["verification"].values()))
 
@@ -236,7 +234,7 @@ steps = 6
         self.assertRegex(done.stderr, r"step \d+ at t = .*, at the stress s11 = \S+, s22 = \S+, s12 = \S+; "
                                       r"largest residual of the law, expression: body upper at \(.*\), "
                                       r"triangle")
-        stuck = json.loads(self.read("out.failed/summary.json"))["stuck"]
+        stuck = self.summary_of("out.failed")["stuck"]
         self.assertEqual((stuck["body"], stuck["time"] > 0), ("upper", True))
 
 

@@ -1,5 +1,4 @@
 """plane = "strain" from the scene to the results: what it writes, says and refuses."""
-import json
 import unittest
 
 import meshio
@@ -49,7 +48,7 @@ class PlaneStrain(OfTwoBlocks):
             out = self.mortier("run", "scene.toml", "--out", "out", "--set", f"plane={plane}").stdout
             self.assertIn(f"; plane {plane}\n", out)
             self.assertNotIn(f"plane {'strain' if plane == 'stress' else 'stress'}", out)
-            self.assertEqual(json.loads(self.read("out/summary.json"))["plane"], plane)
+            self.assertEqual(self.summary_of()["plane"], plane)
         plan = self.mortier("check", "scene.toml", "--set", "plane=strain",
                             "body.upper.material.projection=elasticity").stdout
         self.assertIn("plane strain", plan)
@@ -71,9 +70,8 @@ class PlaneStrain(OfTwoBlocks):
         corner = "body.lower.material={young=3e11, poisson=0.3, viscosity=10, yield_stress=1}"
         for scheme in ("backward-euler", "sdirk2", "crank-nicolson"):
             with self.subTest(scheme):
-                self.mortier("run", "scene.toml", "--out", "out", "--set", "plane=strain", "time.steps=20",
-                             f"time.scheme={scheme}", power, corner)
-                summary = json.loads(self.read("out/summary.json"))
+                summary = self.run_it(None, "plane=strain", "time.steps=20", f"time.scheme={scheme}", power,
+                                      corner)
                 self.assertLess(summary["newton_iterations"], 300)
 
     def test_what_is_refused(self):

@@ -1,5 +1,4 @@
 """A ball whose surface is held is pressed into a plastic body with hardening, in two large steps."""
-import json
 import unittest
 
 from support import InFolder
@@ -43,9 +42,7 @@ allow = ["large-strain", "large-displacement", "stiffness-ratio"]
 class PressedBall(InFolder):
     def setUp(self):
         super().setUp()
-        self.write(SCENE)
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out")
-        self.summary = json.loads(self.read("out/summary.json"))
+        self.summary = self.run_it(SCENE)
 
     # Without a line search two steps are cut into ten, with 480 linear solves.
     def test_a_line_search_solves_both_steps(self):

@@ -1,5 +1,4 @@
 """Bodies factorised by MUMPS in several processes: results, refusals and restarts are those of one."""
-import json
 import os
 import signal
 import subprocess
@@ -117,7 +116,7 @@ class Processes(InFolder):
         done = together(2, TWO_BLOCKS, "--out", "shared", "--set", "time.steps=1", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"factors +by MUMPS [\d.]+ in 2 processes")
-        summary = json.loads(self.read("shared/summary.json"))
+        summary = self.summary_of("shared")
         self.assertEqual(summary["processes"], 2)
         self.assertIn("MUMPS", summary["versions"])
         self.assertEqual(self.names(), ["shared"])

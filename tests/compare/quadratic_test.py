@@ -1,12 +1,11 @@
 """degree = 2 from the scene to the results: what it computes, writes and says."""
-import json
 import unittest
 
 import meshio
 import numpy as np
 
 from scenes import HELD_AND_PRESSED
-from support import ROOT, InFolder
+from support import ROOT, InFolder, set_option
 
 COOK = 23.9618  # deflection of Cook's membrane, of elements of second order on 64 cells (cook_test.cpp)
 
@@ -29,7 +28,7 @@ class Quadratic(InFolder):
         self.write(BLOCK)
 
     def run_to(self, folder, *settings):
-        self.mortier("run", "scene.toml", "--out", folder, *(["--set", *settings] if settings else []))
+        self.mortier("run", "scene.toml", "--out", folder, *set_option(settings))
         return meshio.read(self.folder / folder / "block_000006.vtu")
 
     def test_uniform_flow_is_that_of_linear_triangles(self):
@@ -39,7 +38,7 @@ class Quadratic(InFolder):
             np.testing.assert_allclose(quadratic.cell_data[name][0], linear.cell_data[name][0], atol=1e-11)
         corners = quadratic.point_data["displacement"][:len(linear.points)]
         np.testing.assert_allclose(corners, linear.point_data["displacement"], atol=1e-11)
-        summary = json.loads(self.read("two/summary.json"))
+        summary = self.summary_of("two")
         self.assertEqual(summary["nodes"], len(quadratic.points))
         self.assertEqual(summary["dofs"], 2 * len(quadratic.points))
 
@@ -92,17 +91,13 @@ class InContact(InFolder):
                          f"{name}.mesh")
         self.write(TWO_BLOCKS)
 
-    def summary(self, *settings):
-        self.mortier("run", "scene.toml", "--out", "out", *(["--set", *settings] if settings else []))
-        return json.loads(self.read("out/summary.json"))
-
     def test_every_variant_scheme_and_plane_is_solved(self):
         heights = {}
         for variant in ("weighted", "mortar", "interpolation"):
             for scheme in ("backward-euler", "crank-nicolson", "sdirk2"):
                 for plane in ("stress", "strain"):
                     with self.subTest(variant=variant, scheme=scheme, plane=plane):
-                        summary = self.summary(f"contact.variant={variant}", f"time.scheme={scheme}",
+                        summary = self.run_it(None, f"contact.variant={variant}", f"time.scheme={scheme}",
                                                f"plane={plane}")
                         self.assertEqual(summary["status"], "converged")
                         self.assertLess(summary["verification"]["force_balance"], 1e-9)
@@ -112,24 +107,24 @@ class InContact(InFolder):
                                    delta=1e-3)
 
     def test_the_newton_method_and_penalty_duality_agree(self):
-        newton = self.summary("time.steps=2")["final"]
-        dual = self.summary("time.steps=2", "solver.method=penalty-duality")["final"]
+        newton = self.run_it(None, "time.steps=2")["final"]
+        dual = self.run_it(None, "time.steps=2", "solver.method=penalty-duality")["final"]
         self.assertAlmostEqual(dual["contact_force"], newton["contact_force"], delta=1e-6)
 
     def test_pressure_at_the_vertices_is_nowhere_negative(self):
-        self.summary()
+        self.run_it()
         rows = [line.split(",") for line in self.read("out/contact.csv").splitlines()]
         pressure = rows[0].index("pressure")
         self.assertEqual(len(rows) - 1, 7 * 4)  # of three elements, at t = 0 and after every step
         self.assertTrue(all(float(row[pressure]) >= 0 for row in rows[1:]))
 
     def test_mortar_has_a_condition_at_every_node_of_the_trace(self):
-        self.summary("contact.variant=mortar")
+        self.run_it(None, "contact.variant=mortar")
         self.assertEqual(len(self.read("out/contact.csv").splitlines()) - 1, 7 * 7)
 
     def test_forces_of_quantities_balance(self):
         self.write(TWO_BLOCKS + HELD_AND_PRESSED)
-        quantities = self.summary()["quantities"]
+        quantities = self.run_it()["quantities"]
         self.assertAlmostEqual(quantities["held"]["value"], -quantities["pressed"]["value"], delta=1e-11)
 
 

@@ -1,6 +1,5 @@
 """Bodies of revolution whose elasticity has axes, against exact solutions, and user-defined laws beside
 those that they repeat."""
-import csv
 import math
 import unittest
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from own_law_test import COMPARED, MAXWELL, NORTON, PAIRS, PERZYNA, SCENE, along_deviator
 from rings_support import INNER, OUTER, SPHERE, OfRings, tube
-from support import OfScene
+from support import InFolder
 
 
 def stiffness(young, poisson):
@@ -81,7 +80,7 @@ class AxesOfRings(OfRings):
         self.refuse(text.replace("young3 = 20.0, ", ""), "poisson23 as well around an axis")
 
 
-class OwnLawsOfRings(OfScene):
+class OwnLawsOfRings(InFolder):
     def test_they_repeat_the_laws_of_mortier(self):
         solid = along_deviator("1.3/(E*tau)", 'E = 2e11, tau = 0.1, g = 0.3, em11 = "(e11 + e22 + e33)/3", '
                                'em22 = "em11", em33 = "em11", em12 = 0', " - g/tau*(e{c} - em{c})")
@@ -93,7 +92,7 @@ class OwnLawsOfRings(OfScene):
                     for law in (PAIRS[name][0], own):
                         self.run_it(SCENE.replace("PLANE", "axisymmetric").format(law=law),
                                     f"time.scheme={scheme}", "body.upper.volume=pointwise")
-                        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+                        rows = self.rows_of("out/history.csv")
                         histories.append([[float(row[column.replace("/m]", "]")]) for column in COMPARED]
                                           for row in rows])
                     np.testing.assert_allclose(*histories, rtol=1e-7)

@@ -1,13 +1,12 @@
 """Around the axis: the estimated error over the true one, studies, and forces that are nothing but
 rounding."""
-import csv
 import math
 import unittest
 
 import numpy as np
 
 from rings_support import SPHERE, OfRings, tube
-from support import OfScene
+from support import InFolder
 import study_support
 
 # A solid cylinder between plates that spins: a force of r.
@@ -81,13 +80,13 @@ exact = { ux = "1.3/300*(0.4*x + 4/x)", uy = "0" }
 level = [0, 1]
 """, "study.toml")
         self.study("--jobs", "1")
-        rows = list(csv.DictReader(self.read("out/study.csv").splitlines()))
+        rows = self.rows_of("out/study.csv")
         for name, order in (("error energy", 1), ("error displacement", 2)):
             coarse, fine = (float(row[name]) for row in rows)
             self.assertAlmostEqual(math.log2(coarse / fine), order, delta=0.1)
 
 
-class FreeRings(OfScene):
+class FreeRings(InFolder):
     def test_a_motion_without_strain_takes_the_same_in_all_units(self):
         iterations = set()
         for units, size in (("m, N, Pa", 1), ("mm, N, MPa", 1000)):

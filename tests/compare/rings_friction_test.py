@@ -1,11 +1,10 @@
 """Friction of bodies of revolution: along the meridian, with the weights of whole rings."""
-import csv
 import math
 import unittest
 
 import numpy as np
 
-from support import OfScene
+from support import InFolder, value
 
 import results
 
@@ -76,9 +75,9 @@ def part(name, low, high, cells, conditions, inner):
             .replace("CELLS", str(cells)).replace("CONDITIONS", conditions).replace("INNER", str(inner)))
 
 
-class RubbedRings(OfScene):
+class RubbedRings(InFolder):
     def rows(self):
-        rows = csv.DictReader(self.read("out/contact.csv").splitlines())
+        rows = self.rows_of("out/contact.csv")
         return [row for row in rows if row["step"] != "0"]
 
     def test_cones_that_stick_have_a_uniform_stress(self):
@@ -135,7 +134,7 @@ class RubbedRings(OfScene):
             with self.subTest(variant=variant):
                 held = self.run_it(SLEEVE.replace("PUSH", repr(-0.9999 * limit / volume)),
                                    f"contact.variant={variant}")
-                self.assertAlmostEqual(self.value(held, "along") / limit, -0.9999, delta=1e-10)
+                self.assertAlmostEqual(value(held, "along") / limit, -0.9999, delta=1e-10)
                 self.write(SLEEVE.replace("PUSH", repr(-1.0001 * limit / volume)))
                 errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set",
                                       f"contact.variant={variant}", code=3).stderr

@@ -1,7 +1,7 @@
 """What the tests of bodies of revolution share: a tube and a sphere, errors over whole rings."""
 import numpy as np
 
-from support import OfScene
+from support import InFolder
 
 import results
 import study_support  # noqa: F401
@@ -45,7 +45,7 @@ def tube(cells, body, sides, end=1, steps=1):
             .replace("END", str(end)).replace("STEPS", str(steps)))
 
 
-class OfRings(OfScene):
+class OfRings(InFolder):
     def error(self, quantity, materials, **exact):
         """Of the last run, relative, over the whole ring."""
         names = [name for name in ("ux", "uy", "s11", "s22", "s12", "s33") if name in exact]

@@ -6,6 +6,7 @@ import numpy as np
 
 import heat_test
 from rings_support import INNER, OUTER, OfRings, tube
+from support import value
 
 # A bar that is pressed along the axis.
 BAR = """\
@@ -78,7 +79,7 @@ class HotRings(OfRings):
                             "yield_stress = 1,", "yield_stress = 1e3," if plane == "strain" else
                             "yield_stress = 1,"))
                         summary = self.run_it(text, scheme)
-                        self.assertAlmostEqual(self.value(summary, "grows"), 2e-3 * part, delta=1e-14)
+                        self.assertAlmostEqual(value(summary, "grows"), 2e-3 * part, delta=1e-14)
                         if plane != "strain":
                             self.assertLess(summary["peaks"]["von_mises"]["value"], 1e-9)
 
@@ -123,7 +124,7 @@ class HotRings(OfRings):
                 text = FIT
                 for name, heat in (("SHAFT", shaft), ("HUB", hub)):
                     text = text.replace(name, f'temperature = "{heat}*t"' if heat else "")
-                pressure = self.value(self.run_it(text), "force") / (2 * math.pi * 20 * 2)
+                pressure = value(self.run_it(text), "force") / (2 * math.pi * 20 * 2)
                 self.assertAlmostEqual(pressure / heat_test.Heat.lame("strain", shaft, hub), 1, delta=1e-5)
 
 
@@ -138,7 +139,7 @@ class FlowingRings(OfRings):
             errors = []
             for steps in (8, 16, 32, 64):
                 summary = self.run_it(BAR.replace("LAW", law), f"time.scheme={scheme}", f"time.steps={steps}")
-                short, wide = self.value(summary, "shortens"), self.value(summary, "widens")
+                short, wide = value(summary, "shortens"), value(summary, "widens")
                 self.assertAlmostEqual(wide + short / 2, (0.3 - 0.5) * 3 / 100, delta=1e-12)
                 errors.append(abs(-short - 3 / 100 - p) / p)
             fitted = -np.polyfit(np.log([8, 16, 32, 64]), np.log(errors), 1)[0]
@@ -147,8 +148,8 @@ class FlowingRings(OfRings):
     def test_plastic_bars_are_exact(self):
         law = "viscosity = 0, kinematic_hardening = 4, isotropic_hardening = 6"
         summary = self.run_it(BAR.replace("LAW", law))
-        self.assertAlmostEqual(-self.value(summary, "shortens"), 3 / 100 + 2 / 10, delta=1e-10)
-        self.assertAlmostEqual(self.value(summary, "widens"), 0.3 * 3 / 100 + 1 / 10, delta=1e-10)
+        self.assertAlmostEqual(-value(summary, "shortens"), 3 / 100 + 2 / 10, delta=1e-10)
+        self.assertAlmostEqual(value(summary, "widens"), 0.3 * 3 / 100 + 1 / 10, delta=1e-10)
         self.assertLessEqual(summary["newton_iterations"], 8)
 
     def test_a_tube_comes_to_the_stationary_stress(self):

@@ -1,6 +1,5 @@
 """Rollers without friction may turn about their centre: they are solved where the loads do not turn them, by
 both degrees alike, and the free rotation is named."""
-import json
 import unittest
 
 from seeded.contact_faults import ROLLER
@@ -49,7 +48,7 @@ class Roller(InFolder):
         self.write(text)
         errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out").stderr
         self.assertIn("free-rotation", warned(errors))
-        return json.loads(self.read("out/summary.json"))
+        return self.summary_of()
 
     def test_it_is_solved_and_named(self):
         force = []

@@ -1,5 +1,4 @@
 """Bodies that slide along each other: how far is measured, and a run ends where they slide off each other."""
-import json
 import unittest
 
 from support import InFolder, warned
@@ -37,9 +36,6 @@ class SlidingOff(InFolder):
             text = text.replace(word, str(value))
         self.write(text)
 
-    def summary(self, folder):
-        return json.loads(self.read(f"{folder}/summary.json"))
-
     def test_a_run_ends_where_a_node_passes_the_end(self):
         for degree in (1, 2):
             for blockNonmortar in (True, False):
@@ -49,7 +45,7 @@ class SlidingOff(InFolder):
                         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
                         self.assertRegex(done.stderr, r"step [4-9] at t = 0\.[4-9]: .* slides by 0\.[1-4]\d*,"
                                          r" past the end of label \d of body \w+: .*contact\.sliding")
-                        summary = self.summary("out.failed")
+                        summary = self.summary_of("out.failed")
                         self.assertEqual(summary["status"], "failed")
                         self.assertIn("past the end", summary["reason"])
                         self.assertIn(summary["steps"], range(4, 10))
@@ -58,7 +54,7 @@ class SlidingOff(InFolder):
         self.scene(variant='sliding = "allow"')
         done = self.mortier("run", "scene.toml", "--out", "out")
         self.assertIn("bodies slide along each other by up to 2 edges at t = 1", done.stdout)
-        summary = self.summary("out")
+        summary = self.summary_of("out")
         self.assertAlmostEqual(summary["peaks"]["sliding"]["value"], 2, delta=0.01)
         sliding = summary["interfaces"][0]["sliding"]
         self.assertAlmostEqual(sliding["slip"], 0.5, delta=1e-2)
@@ -73,7 +69,7 @@ class SlidingOff(InFolder):
         self.scene()
         done = self.mortier("run", "scene.toml", "--out", "out", "--set", "body.block.boundary.ux=1e-3*t")
         self.assertNotIn("slide", done.stdout)
-        self.assertLess(self.summary("out")["interfaces"][0]["sliding"]["edges"], 0.01)
+        self.assertLess(self.summary_of("out")["interfaces"][0]["sliding"]["edges"], 0.01)
 
     def test_check_sees_what_supports_show(self):
         self.scene()

@@ -207,8 +207,8 @@ steps = 1
                 ('shape = "ball", cells = 2, height = 1', "height = 1, expected"),
                 ('shape = "disc", cells = 2', "expected cuboid, cylinder, ball")):
             with self.subTest(shape):
-                self.write(cube(ISOTROPIC, HELD).replace('shape = "cuboid", cells = [2, 3, 2]', shape))
-                self.assertIn(message, self.mortier("run", "scene.toml", code=2).stderr)
+                self.refuse(cube(ISOTROPIC, HELD).replace('shape = "cuboid", cells = [2, 3, 2]', shape),
+                            message)
 
 
 if __name__ == "__main__":

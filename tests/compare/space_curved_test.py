@@ -1,5 +1,4 @@
 """Curved surfaces in contact in space: with Gmsh's geometry, and from triangles alone."""
-import csv
 import math
 import unittest
 
@@ -165,7 +164,7 @@ class CurvedSurfaces(InSpace):
                 force = math.sqrt(2)*abs(values["z"])/0.3
                 modulus = 1/((1 - 0.3**2)/210e3 + (1 - 0.33**2)/70e3)
                 width = math.sqrt(4*force*10/(math.pi*modulus))
-                rows = [row for row in csv.DictReader(self.read("out/contact.csv").splitlines())
+                rows = [row for row in self.rows_of("out/contact.csv")
                         if row["time"] == "1"]
                 x, z, found = (np.array([float(row[c]) for row in rows]) for c in ("x", "z", "pressure"))
                 way = 10*(np.arctan2(z - 10*math.sqrt(2), x) + 3*math.pi/4)/width

@@ -1,10 +1,8 @@
 """User-defined laws in space, as expressions of six components: beside the built-in laws that they repeat,
 and beside plane strain."""
-import csv
-import json
 import unittest
 
-from support import InFolder, mortier
+from support import InFolder, mortier, set_option
 
 MISES = ("sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*(s12^2 + s13^2 + s23^2))")
 COMPONENTS = ("11", "22", "12", "33", "13", "23")
@@ -57,11 +55,8 @@ PAIRS = {
 
 class SpaceLaw(InFolder):
     def history(self, text, *settings):
-        self.write(text)
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out",
-                     *[word for each in settings for word in ("--set", each)])
-        self.summary = json.loads(self.read("out/summary.json"))
-        return list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        self.summary = self.run_it(text, *settings)
+        return self.rows_of("out/history.csv")
 
     def compare(self, rows, others, columns, within):
         self.assertEqual(len(rows), len(others))
@@ -181,7 +176,7 @@ scheme = "sdirk2"
         def refuse(message, law, *settings):
             self.write(CUBE.format(law=law))
             self.reject(message, "run", "scene.toml", "--quiet", "--out", "out",
-                        *[word for each in settings for word in ("--set", each)])
+                        *set_option(settings))
         for c in ("33", "13", "23"):
             lines = "\n".join(line for line in NORTON.splitlines() if not line.startswith(f"rate{c}"))
             refuse(f"scene.toml:5: body cube: rate{c} is missing, expected an expression", lines)

@@ -1,7 +1,6 @@
 """Quantities of bodies in space: what statics says of forces, moments, mean pressures and areas; their
 estimated errors; what is refused."""
 import csv
-import json
 import math
 import unittest
 
@@ -20,9 +19,7 @@ def moments(kind, body, label, about):
 
 class SpaceQuantities(InFolder):
     def run_scene(self, text, degree=1):
-        self.write(f"dimension = 3\ndegree = {degree}\n{text}{scenes.ALLOW}")
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out")
-        self.found = json.loads(self.read("out/summary.json"))["quantities"]
+        self.found = self.run_it(f"dimension = 3\ndegree = {degree}\n{text}{scenes.ALLOW}")["quantities"]
         return {name: each["value"] for name, each in self.found.items()}
 
     def ratio(self, make, name, degree, finer=2):

@@ -1,9 +1,7 @@
 """Steps in space chosen by their error: those of the plane on bodies that are extruded, and the tolerance."""
-import csv
-import json
 import unittest
 
-from support import InFolder
+from support import InFolder, values
 
 # Two blocks in plane strain and the same blocks in space, held at both ends: the stress is uniform in each.
 # y of the plane is z in space.
@@ -85,12 +83,9 @@ scheme = "{scheme}"
 
 class SpaceSteps(InFolder):
     def history(self, text, *settings):
-        self.write(text)
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out",
-                     *[word for each in settings for word in ("--set", each)])
-        self.summary = json.loads(self.read("out/summary.json"))
+        self.summary = self.run_it(text, *settings)
         return [{name: value if name == "rung" else float(value) for name, value in row.items()}
-                for row in csv.DictReader(self.read("out/history.csv").splitlines())]
+                for row in self.rows_of("out/history.csv")]
 
     def test_bodies_that_are_extruded_take_the_steps_of_the_plane(self):
         for name, laws in MATERIALS.items():
@@ -139,7 +134,7 @@ class SpaceSteps(InFolder):
                             (2, 'law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3')):
             fine = PRESSED.format(degree=degree, law=law, scheme="sdirk2", time="steps = 320")
             self.history(fine)
-            exact = {name: each["value"] for name, each in self.summary["quantities"].items()}
+            exact = values(self.summary)
             for scheme, tolerance in (("sdirk2", 1e-2), ("sdirk2", 1e-3), ("backward-euler", 2e-2)):
                 with self.subTest(law, scheme=scheme, tolerance=tolerance):
                     rows = self.history(PRESSED.format(degree=degree, law=law, scheme=scheme,

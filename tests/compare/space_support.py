@@ -1,10 +1,9 @@
 """A cube in space, elastic constants of it, and what its results hold."""
-import json
 
 import meshio
 import numpy as np
 
-from support import InFolder, warned
+from support import InFolder, set_option, values, warned
 
 HELD = ('point = [ { at = [0, 0, 0], ux = 0, uy = 0, uz = 0 }, { at = [1, 0, 0], uy = 0, uz = 0 }, '
         '{ at = [0, 1, 0], uz = 0 } ]')
@@ -54,10 +53,10 @@ class InSpace(InFolder):
         if text is not None:
             self.write(text)
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out",
-                            *[word for each in settings for word in ("--set", each)], code=code)
+                            *set_option(settings), code=code)
         self.warnings = warned(done.stderr)
-        self.summary = json.loads(self.read("out/summary.json"))
-        return {name: each["value"] for name, each in self.summary.get("quantities", {}).items()}
+        self.summary = self.summary_of()
+        return values(self.summary)
 
     def fields(self, body="cube"):
         """Places, displacements, centres of the cells, and stresses: s11, s22, s33, s12, s23, s13."""

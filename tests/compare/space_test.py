@@ -1,5 +1,4 @@
 """Scenes in space: what is exact, what is refused, files and messages."""
-import json
 import signal
 import subprocess
 import time
@@ -8,7 +7,7 @@ import unittest
 import meshio
 import numpy as np
 
-from support import PROGRAM, ROOT, InFolder, mortier
+from support import PROGRAM, ROOT, InFolder, mortier, values
 from results import read_csv
 
 # The note's compression test of two cubes; the stress is (0, 0, -10 t) and flows from t = 0.1 on.
@@ -63,11 +62,9 @@ class Space(InFolder):
         super().setUp()
         self.write(CUBES)
 
-    def run_scene(self, *settings, code=0):
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *arguments, code=code)
-        summary = json.loads(self.read("out/summary.json"))
-        return summary, {name: each["value"] for name, each in summary.get("quantities", {}).items()}
+    def run_scene(self, *settings):
+        summary = self.run_it(None, *settings)
+        return summary, values(summary)
 
     def test_compression_is_exact(self):
         for settings in (["contact.variant=weighted"], ["contact.variant=mortar"], ["contact.swap=true"],
@@ -162,7 +159,7 @@ steps = 10
                 setting = f"body.material={{young=100, poisson=0.3, {law}}}"
                 _, values = self.run_scene(setting, "time.steps=10")
                 self.mortier("run", "ring.toml", "--quiet", "--out", "ring", "--set", setting)
-                ring = json.loads(self.read("ring/summary.json"))["quantities"]["top"]["value"]
+                ring = self.summary_of("ring")["quantities"]["top"]["value"]
                 self.assertAlmostEqual(values["top"] / (2 * ring), 1, delta=1e-9)
 
     def test_what_is_of_the_plane_is_refused(self):
@@ -346,7 +343,7 @@ class Accuracy(InFolder):
     def run_to(self, accuracy, *arguments, code=0):
         done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", str(accuracy), *arguments,
                             code=code)
-        return done, json.loads(self.read("out/summary.json"))
+        return done, self.summary_of()
 
     def test_is_reached_and_told(self):
         done, summary = self.run_to(0.2)
@@ -369,7 +366,7 @@ class Accuracy(InFolder):
         # The nonmortar side is chosen on the first meshes; the last ones may have another finer side.
         def again_with(*settings):
             self.mortier("run", "scene.toml", "--out", "again", "--quiet", *settings)
-            return json.loads(self.read("again/summary.json"))
+            return self.summary_of("again")
 
         def nonmortar(of):
             return of["interfaces"][0]["nonmortar"]

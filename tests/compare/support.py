@@ -1,4 +1,5 @@
 """What the Python tests share. Each is run by ctest, or alone: MORTIER=build/mortier /usr/bin/python3 FILE"""
+import csv
 import json
 import os
 import re
@@ -29,6 +30,19 @@ def mortier(*arguments, timeout=120, **options):
                           **{"stderr": subprocess.PIPE, "text": True, "timeout": HANGS,
                              "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_CPU,
                                                                       (timeout, timeout + 1)), **options})
+
+
+def set_option(settings):
+    return ["--set", *settings] if settings else []
+
+
+def value(summary, name):
+    """Of a quantity."""
+    return summary["quantities"][name]["value"]
+
+
+def values(summary):
+    return {name: each["value"] for name, each in summary.get("quantities", {}).items()}
 
 
 def warned(errors):
@@ -97,6 +111,13 @@ class InFolder(unittest.TestCase):
     def read(self, name):
         return (self.folder / name).read_text()
 
+    def summary_of(self, out="out"):
+        return json.loads(self.read(f"{out}/summary.json"))
+
+    def rows_of(self, name):
+        """Of a table, dictionaries."""
+        return list(csv.DictReader(self.read(name).splitlines()))
+
     def names(self, folder="."):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 
@@ -114,6 +135,20 @@ class InFolder(unittest.TestCase):
         self.assertTrue(errors.startswith("mortier: " + message), f"\nexpected {message}\nis       {errors}")
         self.assertEqual(errors.count("\n"), 1, errors)
         self.assertFalse((self.folder / "out").exists())
+
+    def run_it(self, text=None, *settings, folder="out"):
+        """Runs a scene, or scene.toml as it is: the summary."""
+        if text is not None:
+            self.write(text)
+        self.mortier("run", "scene.toml", "--quiet", "--out", folder, *set_option(settings))
+        return self.summary_of(folder)
+
+    def refuse(self, text, message, *settings):
+        self.write(text)
+        errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", *set_option(settings),
+                              code=2).stderr
+        self.assertEqual(len(errors.splitlines()), 1, errors)
+        self.assertIn(message, errors)
 
     def resume(self, settings, lines, names):
         """A run of scene.toml that is killed once its history has more lines goes on from its checkpoint to
@@ -149,20 +184,3 @@ class InSharedFolder(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-
-
-class OfScene(InFolder):
-    def run_it(self, text, *settings, folder="out"):
-        self.write(text)
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        self.mortier("run", "scene.toml", "--quiet", "--out", folder, *arguments)
-        return json.loads(self.read(folder + "/summary.json"))
-
-    def value(self, summary, name):
-        return summary["quantities"][name]["value"]
-
-    def refuse(self, text, message, *settings):
-        self.write(text)
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", *arguments, code=2).stderr
-        self.assertIn(message, errors)

@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 """Rigid tools ([[tool]], docs/scene.md): exact solutions, balance, free motions, quantities, faults."""
-import json
 import math
 import unittest
 
-import support
+from support import InFolder, set_option, value
 
 import results  # noqa: E402
 
@@ -72,21 +71,17 @@ steps = 1
 """
 
 
-class Tools(support.InFolder):
+class Tools(InFolder):
     def solve(self, text, *settings, code=0):
         """The summary and the last kept step."""
         self.write(text)
-        done = self.mortier("run", "scene.toml", "--out", "out", *(["--set", *settings] if settings else []),
-                            code=code)
+        done = self.mortier("run", "scene.toml", "--out", "out", *set_option(settings), code=code)
         if code:
             return done.stderr, None
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         tables = results.contact_tables(self.folder / "out")
         return summary, results.mortier_run(self.folder / "out", summary, tables, results.kept_steps(
             self.folder / "out")[-1][0])
-
-    def value(self, summary, name):
-        return summary["quantities"][name]["value"]
 
     def test_patch_under_a_flat_tool(self):
         for rows in ("variant=mortar", "variant=interpolation", "variant=weighted", "stabilised=true"):
@@ -109,8 +104,8 @@ class Tools(support.InFolder):
         expected = {"reaction-x": 0, "reaction-y": -1, "reaction-moment": -0.25, "contact-x": 0,
                     "contact-y": 1, "contact-moment": 0.25, "moves-x": 0, "moves-y": -0.01,
                     "moves-rotation": 0, "external": 0.005, "stored": 0.005}
-        for name, value in expected.items():
-            self.assertAlmostEqual(self.value(summary, name), value, delta=1e-13, msg=name)
+        for name, exact in expected.items():
+            self.assertAlmostEqual(value(summary, name), exact, delta=1e-13, msg=name)
         self.assertIn("moves-rotation[rad]", self.read("out/history.csv"))
         plate = next(body for body in summary["bodies"] if body["name"] == "plate")
         self.assertEqual((plate["material"], plate["laws"], plate["free_dofs"]), ("rigid", [], 0))
@@ -128,7 +123,7 @@ class Tools(support.InFolder):
         for x, u in zip(block.points, block.displacement):
             if x[1] == 1:
                 self.assertAlmostEqual(u[1], -0.02 + 0.01 * (x[0] - 0.25), delta=1e-4)
-        self.assertLess(self.value(summary, "reaction-moment") + self.value(summary, "contact-moment"), 1e-13)
+        self.assertLess(value(summary, "reaction-moment") + value(summary, "contact-moment"), 1e-13)
 
     def test_force_and_moment(self):
         """What forces press is what contact carries, whichever motions are free."""
@@ -145,17 +140,17 @@ class Tools(support.InFolder):
                             if force is None:
                                 continue
                             name = f"contact-{component}"
-                            self.assertAlmostEqual(self.value(summary, name), force, delta=1e-13, msg=name)
-                            self.assertEqual(self.value(summary, f"reaction-{component}"), 0)
+                            self.assertAlmostEqual(value(summary, name), force, delta=1e-13, msg=name)
+                            self.assertEqual(value(summary, f"reaction-{component}"), 0)
                         self.assertLess(summary["verification"]["force_balance"], 1e-13)
 
     def test_forces_move_as_displacements_do(self):
         """A tool that is pressed to where a force has brought another needs that force."""
         first, _ = self.solve(pressed('fy = "-1*t"\nmoment = "-0.2*t"'))
-        second, _ = self.solve(pressed(f'uy = "{self.value(first, "moves-y")!r}*t"\n'
-                                       f'rotation = "{self.value(first, "moves-rotation")!r}*t"'))
+        second, _ = self.solve(pressed(f'uy = "{value(first, "moves-y")!r}*t"\n'
+                                       f'rotation = "{value(first, "moves-rotation")!r}*t"'))
         for name, force in (("reaction-y", -1), ("reaction-moment", -0.2)):
-            self.assertAlmostEqual(self.value(second, name), force, delta=1e-11)
+            self.assertAlmostEqual(value(second, name), force, delta=1e-11)
 
     def test_free_motions_are_named(self):
         for motion, message in (('fy = "-1*t"\nfx = "0.1*t"', "plate: nothing holds its translation along"),
@@ -201,7 +196,7 @@ class Tools(support.InFolder):
                 'uy = "-3e-4*t"\n')
         text = 'plane = "strain"\n' + ground + tool + ON_GROUND.replace("steps = 1", "steps = 20")
         summary, _ = self.solve(text + quantity("mean", 'reaction = { body = "tool" }', "y"))
-        mean = -self.value(summary, "mean") / ((2 + math.pi) / math.sqrt(3))
+        mean = -value(summary, "mean") / ((2 + math.pi) / math.sqrt(3))
         self.assertGreater(mean, 1)  # what displacements are left to find needs more
         self.assertLess(mean, 1.03)
 
@@ -213,7 +208,7 @@ class Tools(support.InFolder):
             tool = f'[[tool]]\nname = "tool"\n{shape}\nuy = "-0.2*t"\n'
             summary, _ = self.solve('plane = "strain"\n' + half_plane(70000, [64, 40], 12) + tool + ON_GROUND
                                     + quantity("press", 'reaction = { body = "tool" }', "y"))
-            force[shape[:4]] = self.value(summary, "press")
+            force[shape[:4]] = value(summary, "press")
         self.assertAlmostEqual(force["mesh"] / force["shap"], 1, delta=1e-6)
 
     def test_cone_and_wedge(self):
@@ -243,7 +238,7 @@ class Tools(support.InFolder):
                                     "friction = 0.3\n[time]\nend = 2\nsteps = 2")
                 + "".join(quantity(c, 'contact_force = { body = "tool" }', c) for c in ("x", "y")))
         summary, _ = self.solve(text)
-        fx, fy = self.value(summary, "x"), self.value(summary, "y")
+        fx, fy = value(summary, "x"), value(summary, "y")
         self.assertAlmostEqual(fx / fy, -0.3, delta=1e-10)
         self.assertAlmostEqual(fy, 1, delta=1e-13)
 
@@ -258,7 +253,7 @@ class Tools(support.InFolder):
             tool = f'[[tool]]\nname = "tool"\n{shape}\nuy = "-0.2*t"\n'
             summary, _ = self.solve('plane = "strain"\n' + half_plane(70000, [64, 40], 12) + tool + ON_GROUND
                                     + quantity("press", 'reaction = { body = "tool" }', "y"))
-            force[shape[9:13]] = self.value(summary, "press")
+            force[shape[9:13]] = value(summary, "press")
         self.assertAlmostEqual(force["disc"] / force["spli"], 1, delta=2e-3)
 
     def test_two_tools_on_one_side(self):
@@ -271,7 +266,7 @@ class Tools(support.InFolder):
                          for name in ("left", "right"))
         block = BLOCK.replace("[5, 4]", '[20, 8], cut = "both"').replace("label = 4,", "label = 1,")
         summary, _ = self.solve(block + tools + contacts + forces + TIME)
-        left, right = self.value(summary, "left"), self.value(summary, "right")
+        left, right = value(summary, "left"), value(summary, "right")
         self.assertAlmostEqual(left / right, 1, delta=1e-11)
         self.assertLess(left, 0)
 

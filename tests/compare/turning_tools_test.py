@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-import support
+from support import InFolder
 
 import results  # noqa: E402
 
@@ -63,13 +63,7 @@ def timed(steps):
     return f"[time]\nend = 1\nsteps = {steps}\n[output]\nevery = 1\n"
 
 
-class TurningTools(support.InFolder):
-    def solve(self, text, *settings):
-        self.write(text)
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out",
-                     *(["--set", *settings] if settings else []))
-        return json.loads(self.read("out/summary.json"))
-
+class TurningTools(InFolder):
     def history(self, *names):
         """Columns by their names, without units."""
         rows = results.read_csv(self.folder / "out/history.csv")
@@ -83,7 +77,7 @@ class TurningTools(support.InFolder):
         """One full turn after it is pressed: without friction nothing changes, with it all nodes slip."""
         motion = 'uy = "-0.02*min(4*t, 1)"\nrotation = "-2*pi*max(t - 0.25, 0)/0.75"\n'
         for friction in (0, 0.3):
-            summary = self.solve(self.block() + DISC + motion + CONTACT + f"friction = {friction}\n"
+            summary = self.run_it(self.block() + DISC + motion + CONTACT + f"friction = {friction}\n"
                                  + QUANTITIES + timed(16))
             x, y, moment, turned = self.history("contact_force-x", "contact_force-y",
                                                 "contact_force-moment", "displacement-rotation")
@@ -115,10 +109,10 @@ class TurningTools(support.InFolder):
         for degree in (1, 2):
             for rows in ("variant=mortar", "variant=weighted", "stabilised=true"):
                 with self.subTest(degree=degree, rows=rows):
-                    self.solve(f"degree = {degree}\n" + inclined(INCLINED, [5, 4]) + PLATE + motion + ON_PLATE
-                               + timed(8), f"contact.{rows}")
+                    summary = self.run_it(f"degree = {degree}\n" + inclined(INCLINED, [5, 4]) + PLATE + motion
+                                          + ON_PLATE + timed(8), f"contact.{rows}")
                     folder = self.folder / "out"
-                    run = results.mortier_run(folder, json.loads(self.read("out/summary.json")),
+                    run = results.mortier_run(folder, summary,
                                               results.contact_tables(folder),
                                               results.kept_steps(folder)[-1][0])
                     self.assertLess(abs(run.contact.pressure / (1e3 * depth) - 1).max(), 1e-10)
@@ -132,7 +126,7 @@ class TurningTools(support.InFolder):
         angle = math.radians(10)
         motion = 'fy = "-1e-4*t"\nmoment = 0\nux = 0\n'
         plate = PLATE.replace("[-1.6, 3]", "[-1.6, 0.31]").replace("[0, 3]", "[0, 0.31]")
-        summary = self.solve(inclined(angle, [6, 4]) + plate + motion + ON_PLATE + QUANTITIES + timed(4))
+        summary = self.run_it(inclined(angle, [6, 4]) + plate + motion + ON_PLATE + QUANTITIES + timed(4))
         turned, moment, force = self.history("displacement-rotation", "contact_force-moment",
                                              "contact_force-y")
         self.assertAlmostEqual(turned[-1], angle, delta=1e-6)
@@ -146,7 +140,7 @@ class TurningTools(support.InFolder):
         way = "3*max(t - 0.2, 0)/0.8"
 
         def rolled(turns):
-            self.solve(self.block(-1.5, 4.5, 80) + DISC + f'ux = "{way}"\nuy = "-0.01*min(5*t, 1)"\n' + turns
+            self.run_it(self.block(-1.5, 4.5, 80) + DISC + f'ux = "{way}"\nuy = "-0.01*min(5*t, 1)"\n' + turns
                        + CONTACT + "friction = 0.3\n" + QUANTITIES + timed(40))
             x, y, turned = self.history("contact_force-x", "contact_force-y", "displacement-rotation")
             return x[-1] / y[-1], turned[-1] / -1.5

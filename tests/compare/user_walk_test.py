@@ -126,7 +126,7 @@ class Found(OfTwoBlocks):
         bound = ("--set", "accuracy.bound=true", "degree=2", "body.upper.material={young=3e11, poisson=0.3}")
         self.assertEqual(self.left_out(*bound)["accuracy"], "displacements are quadratic")
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", *bound)
-        told = json.loads(self.read("out/summary.json"))["accuracy"]["bound"]
+        told = self.summary_of()["accuracy"]["bound"]
         self.assertEqual(told["reason"], "displacements are quadratic")
         self.assertNotIn("accuracy", self.left_out(*bound, "degree=1"))
 
@@ -135,7 +135,7 @@ class Found(OfTwoBlocks):
         told = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.03").stdout
         self.assertRegex(told, r"highest .* \(no limit: stresses are unbounded there, about like r\^-0\.5\), "
                                r"force \S+ N/m \(changed by 0\.\d+ % in the last round\)")
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         highest, force = (summary["quantities"][name] for name in ("highest", "force"))
         self.assertAlmostEqual(highest["unbounded_order"], 0.5, delta=0.05)
         self.assertNotIn("unbounded_order", force)
@@ -147,7 +147,7 @@ class Found(OfTwoBlocks):
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
         self.assertRegex(told, r"force \S+ N/m \+- \S+")
         self.assertIn("\n           +-: estimated error because of the meshes", told)
-        quantities = json.loads(self.read("out/summary.json"))["quantities"]
+        quantities = self.summary_of()["quantities"]
         self.assertEqual([each["change_in_last_round"] for each in quantities.values()], [None, None])
         self.assertGreater(quantities["force"]["estimated_error"], 0)
         self.assertIsNone(quantities["highest"]["estimated_error"])
@@ -166,9 +166,7 @@ class Found(OfTwoBlocks):
         wheel = wheel.replace('reaction = { body = "punch", label = 3 }',
                               'reaction = { body = "punch", label = 2 }')
         for text, order in ((fine, 0.5), (wheel, None)):
-            self.write(text)
-            self.mortier("run", "scene.toml", "--quiet", "--out", "out")
-            highest = json.loads(self.read("out/summary.json"))["quantities"]["highest"]
+            highest = self.run_it(text)["quantities"]["highest"]
             if order:
                 self.assertAlmostEqual(highest["unbounded_order"], order, delta=0.1)
             else:

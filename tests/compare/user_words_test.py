@@ -83,9 +83,7 @@ class Messages(InFolder):
 class Values(InFolder):
     def test_one_largest_stress_for_one_time(self):
         """With quadratic triangles too: at the end, of the run, in the history and of the quantities."""
-        self.write(PRESS)
-        self.mortier("run", "scene.toml", "--quiet", "--out", "out")
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.run_it(PRESS)
         peak = summary["peaks"]["von_mises"]
         self.assertEqual(peak["time"], 1)
         quantities = [each["value"] for each in summary["quantities"].values()]

@@ -1,6 +1,4 @@
 """Scenes of bodies of revolution: numbers of whole rings, and what is refused."""
-import csv
-import json
 import math
 import sys
 import unittest
@@ -43,14 +41,14 @@ class Axisymmetric(support.OfTwoBlocks):
     def test_forces_are_of_the_whole_ring(self):
         self.write(TUBE)
         self.mortier("run", "scene.toml")
-        summary = json.loads(self.read("out/scene/summary.json"))
+        summary = self.summary_of("out/scene")
         self.assertEqual(summary["plane"], "axisymmetric")
         below = summary["quantities"]["below"]
         self.assertEqual(below["unit"], "N")
         self.assertAlmostEqual(below["value"], 2 * 4 * math.pi, delta=1e-10)
         self.assertEqual(summary["quantities"]["energy"]["unit"], "J")
         self.assertLess(summary["verification"]["force_balance"], 1e-13)
-        last = list(csv.DictReader(self.read("out/scene/history.csv").splitlines()))[-1]
+        last = self.rows_of("out/scene/history.csv")[-1]
         self.assertAlmostEqual(float(last["contact_force[N]"]), 2 * 4 * math.pi, delta=1e-10)
         self.assertIn("elastic_energy[J]", last)
         self.assertIn("whole rings", self.mortier("check", "scene.toml").stdout)
@@ -62,18 +60,12 @@ class Axisymmetric(support.OfTwoBlocks):
         self.assertIn("contact_force[N]", header)
         self.assertIn("elastic_energy[N mm]", header)
 
-    def refused(self, scene, message):
-        self.write(scene)
-        result = self.mortier("run", "scene.toml", "--quiet", code=2)
-        self.assertEqual(len(result.stderr.splitlines()), 1)
-        self.assertIn(message, result.stderr)
-
     def test_what_cannot_be_is_refused(self):
-        self.refused(TUBE.replace("lower = [0, 1]", "lower = [-1, 1]"), "expected x >= 0 beside plane")
-        self.refused(TUBE.replace('component = "y"', 'component = "moment"'), "have no moment")
-        self.refused(TUBE + "[accuracy]\nbound = true\n", "no bound is known of axisymmetric bodies")
-        self.refused(TUBE.replace("{ label = 3, pressure", "{ label = 4, ux = 1 }, { label = 3, pressure"),
-                     "expected the 0 that the axis prescribes there")
+        self.refuse(TUBE.replace("lower = [0, 1]", "lower = [-1, 1]"), "expected x >= 0 beside plane")
+        self.refuse(TUBE.replace('component = "y"', 'component = "moment"'), "have no moment")
+        self.refuse(TUBE + "[accuracy]\nbound = true\n", "no bound is known of axisymmetric bodies")
+        self.refuse(TUBE.replace("{ label = 3, pressure", "{ label = 4, ux = 1 }, { label = 3, pressure"),
+                    "expected the 0 that the axis prescribes there")
 
     def test_a_roller_on_the_axis_is_no_contradiction(self):
         self.write(TUBE.replace("{ label = 3, pressure", "{ label = 4, un = 0 }, { label = 3, pressure"))
@@ -89,7 +81,7 @@ class Axisymmetric(support.OfTwoBlocks):
     def test_rounds_reach_what_is_asked(self):
         self.write(TUBE)
         self.mortier("run", "scene.toml", "--accuracy", "0.05")
-        accuracy = json.loads(self.read("out/scene/summary.json"))["accuracy"]
+        accuracy = self.summary_of("out/scene")["accuracy"]
         self.assertTrue(accuracy["reached"])
 
 

@@ -1,6 +1,4 @@
 """The built program from outside: usage, exit codes, output that other programs read."""
-import csv
-import json
 import os
 import signal
 import subprocess
@@ -55,7 +53,7 @@ class Cli(OfTwoBlocks):
         for arguments in (["run", "/dev/stdin", "--out", "piped"], ["check", "/dev/stdin"]):
             done = mortier(*arguments, cwd=self.folder, input=text)  # a pipe gives its text once
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(json.loads(self.read("piped/summary.json"))["scene_text"], text)
+        self.assertEqual(self.summary_of("piped")["scene_text"], text)
 
     def test_body_that_nothing_holds(self):
         self.write(TWO_BLOCKS.replace("label = 4\nux = 0", "label = 4\ntx = 0", 1))
@@ -70,7 +68,7 @@ class Cli(OfTwoBlocks):
         self.mortier("run", "scene.toml", "--quiet", "--set", "solver.max_iterations=1",
                      "solver.tolerance=1e-30", code=1)
         self.assertEqual(self.read("out/scene/summary.json"), before)
-        self.assertEqual(json.loads(self.read("out/scene.failed/summary.json"))["status"], "failed")
+        self.assertEqual(self.summary_of("out/scene.failed")["status"], "failed")
         self.assertEqual(self.names("out"), ["scene", "scene.failed"])
         self.mortier("run", "scene.toml", "--quiet")
         self.assertEqual(self.names("out"), ["scene"])
@@ -154,7 +152,7 @@ class Cli(OfTwoBlocks):
                  0.7: "time={end=1, tolerance=1e-2, scheme='sdirk2', breaks=[0.35]}", 0.9: None, 0.35: None}
         self.mortier("run", "scene.toml", "--quiet", "--set", *filter(None, kinks.values()))
         times = [float(row["time[s]"])
-                 for row in csv.DictReader(self.read("out/scene/history.csv").splitlines())]
+                 for row in self.rows_of("out/scene/history.csv")]
         self.assertLess(len(times), 100)
         for kink in kinks:
             self.assertIn(kink, times)
@@ -173,7 +171,7 @@ class Cli(OfTwoBlocks):
         self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[-2:]],
                          ["verification", "accuracy"])
 
-        summary = json.loads(self.read("result/summary.json"))
+        summary = self.summary_of("result")
         self.assertEqual(summary["status"], "converged")
         self.assertEqual(summary["triangles"], 36 + 32)
         self.assertEqual(summary["projection"], "elasticity")
@@ -204,11 +202,11 @@ class Cli(OfTwoBlocks):
             self.assertEqual(set(mesh.cell_data["region"][0]),
                              set(original.cell_data_dict["medit:ref"]["triangle"]))
 
-        history = list(csv.DictReader(self.read("result/history.csv").splitlines()))
+        history = self.rows_of("result/history.csv")
         self.assertEqual([float(row["time[s]"]) for row in history], [0.25, 0.5, 0.75, 1])
         rungs = [row["rung"] for row in history]
         self.assertEqual(summary["rungs"], {rung: rungs.count(rung) for rung in rungs})
-        contact = list(csv.DictReader(self.read("result/contact.csv").splitlines()))
+        contact = self.rows_of("result/contact.csv")
         self.assertEqual([row["step"] for row in contact], ["0"] * 4 + ["2"] * 4 + ["4"] * 4)
         last = contact[-4:]
         self.assertAlmostEqual(sum(float(row["force"]) for row in last), 10, places=9)

@@ -1,7 +1,5 @@
 """Files of Gmsh: two squares side by side with a curve between them,
 as a mesh in both formats and as a geometry."""
-import csv
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -129,11 +127,11 @@ steps = 1
 every = 1
 """)
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "ellipse")
-        interface = json.loads(self.read("ellipse/summary.json"))["interfaces"][0]
+        interface = self.summary_of("ellipse")["interfaces"][0]
         self.assertEqual(interface["sagitta"], 0)
         self.assertNotIn("no circle", run.stderr)
         gaps = [abs(float(row["gap"]))
-                for row in csv.DictReader(self.read("ellipse/contact.csv").splitlines())
+                for row in self.rows_of("ellipse/contact.csv")
                 if row["step"] == "0"]
         self.assertGreater(len(gaps), 10)
         self.assertLess(max(gaps), 1e-10)  # the polygons are off each other by up to 6e-3
@@ -169,7 +167,7 @@ every = 1
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "pressed")
         self.assertEqual(told(run.stderr), [])
         self.assertEqual(warned(run.stderr), ["large-strain"])
-        summary = json.loads(self.read("pressed/summary.json"))
+        summary = self.summary_of("pressed")
         self.assertAlmostEqual(summary["final"]["von_mises_min"], 6, places=10)
         self.assertAlmostEqual(summary["final"]["von_mises_max"], 6, places=10)
         self.assertAlmostEqual(summary["final"]["displacement_min"][0], -0.06 * 3, places=10)
@@ -209,9 +207,7 @@ every = 1
             self.mortier("mesh", "convert", "parts.geo", f"{name}.mesh", "--region", f"{name} half")
         final = []
         for scene in (plain, plain.replace(left, '"left.mesh"').replace(right, '"right.mesh"')):
-            self.write(scene)
-            self.mortier("run", "scene.toml", "--quiet", "--out", "run")
-            final.append(json.loads(self.read("run/summary.json"))["final"])
+            final.append(self.run_it(scene, folder="run")["final"])
         self.assertEqual(*final)
         self.reject('--set contact.mortar.label=betwen: body right: label = "betwen", expected one of '
                     'base, between', "run", "scene.toml", "--quiet",
@@ -265,7 +261,7 @@ every = 1
                 self.assertEqual(told(run.stderr), [])
                 self.assertEqual(warned(run.stderr), ["large-strain", "large-strain", "yield-over-young",
                                                       "initial-load"])
-                plate = json.loads(self.read("plate/summary.json"))
+                plate = self.summary_of("plate")
                 self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
                 self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)
                 self.assertEqual(plate["bodies"][0]["material"], "Perzyna (frobenius), elastic")
@@ -274,7 +270,7 @@ every = 1
                      "time={end=1, tolerance=1e-2, scheme='sdirk2'}",
                      "body.plate.boundary.top.pressure='t < 0.37 ? t : 0.37'")
         self.assertIn("0.37",
-                      [row["time[s]"] for row in csv.DictReader(self.read("plate/history.csv").splitlines())])
+                      [row["time[s]"] for row in self.rows_of("plate/history.csv")])
         fours = [self.mortier("mesh", "info", name).stdout.count("4") for name in ("a.msh", "b.msh")]
         self.assertEqual(*fours)
 
@@ -334,7 +330,7 @@ steps = 1
 """)
         # The hole is known as a circle: nothing is said of a polygon.
         self.mortier("run", "scene.toml", "--quiet", "--out", "o", "--accuracy", "0.1")
-        accuracy = json.loads(self.read("o/summary.json"))["accuracy"]
+        accuracy = self.summary_of("o")["accuracy"]
         self.assertTrue(accuracy["reached"])
         self.assertEqual(accuracy["not_reliable"], [])
 

@@ -1,6 +1,5 @@
 """Contact keeps dense matrices over its nodes, but for long lines without friction: what a run needs is
 reported before it, and refused where there is not so much."""
-import json
 import re
 import resource
 import sys
@@ -42,17 +41,17 @@ class MemoryNeed(InFolder):
     def test_a_thousand_contact_nodes(self):
         self.strips(1000)
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
-        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        peak = self.summary_of()["peak_memory_mib"]
         need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
         print(f"1,000 contact nodes: told {need:.0f} MiB, took {peak:.0f} MiB")
         self.assertLess(peak, 60)
         self.assertLess(abs(need - peak), peak / 2)
-        self.assertEqual(json.loads(self.read("out/summary.json"))["contact_matrices"], "sparse")
+        self.assertEqual(self.summary_of()["contact_matrices"], "sparse")
 
     def test_two_thousand_contact_nodes(self):
         self.strips(2000)
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
-        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        peak = self.summary_of()["peak_memory_mib"]
         need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
         print(f"2,000 contact nodes: told {need:.0f} MiB, took {peak:.0f} MiB")
         self.assertLess(peak, 100)
@@ -70,7 +69,7 @@ class MemoryNeed(InFolder):
         scene = loads.sub('boundary = [ { label = 2, pressure = "t", ut = 0 } ]', SCENE, 1)
         self.write(scene.replace("label = 3", "label = 2"))
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
-        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        peak = self.summary_of()["peak_memory_mib"]
         need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
         print(f"700 contact nodes on a circle: told {need:.0f} MiB, took {peak:.0f} MiB")
         self.assertLess(abs(need - peak), peak / 4)
@@ -106,7 +105,7 @@ steps = 1
 
     def test_a_body_in_space(self):
         told = self.in_space(10).stdout
-        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        peak = self.summary_of()["peak_memory_mib"]
         self.assertIn(", factors in single precision, corrected", told)
         need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
         print(f"27,000 unknowns in space: told {need:.0f} MiB, took {peak:.0f} MiB")

@@ -1,7 +1,6 @@
 """Mesh files of other programs: a strip of 2 by 1 (by 1), cut and labelled alike whatever the file, or
 refused with the reason."""
 import itertools
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -286,7 +285,7 @@ class MeshFiles(InFolder):
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "o")
         self.assertEqual(warned(run.stderr)[0], "mesh-changed")
         self.assertIn("warning: a.inp: cells with more corners are cut into tetrahedra; ", run.stderr)
-        final = json.loads(self.read("o/summary.json"))["final"]
+        final = self.summary_of("o")["final"]
         self.assertAlmostEqual(final["von_mises_max"], 6, 9)
         self.assertAlmostEqual(final["von_mises_min"], 6, 9)
         both = scene.replace("boundary = [", 'boundary = [ { label = "Nall", ux = 0 },')
@@ -304,8 +303,7 @@ class MeshFiles(InFolder):
                    .replace("[time]", POINTS + "[time]"))
         if "this build is without" in mortier("mesh", "info", "a.geo", cwd=self.folder).stderr:
             self.skipTest("this build is without Gmsh")
-        self.mortier("run", "scene.toml", "--quiet", "--out", "o")
-        self.assertAlmostEqual(json.loads(self.read("o/summary.json"))["final"]["von_mises_min"], 6, 9)
+        self.assertAlmostEqual(self.run_it(folder="o")["final"]["von_mises_min"], 6, 9)
         self.refused("is in the groups all and left, and the scene names both", "run", "scene.toml", "--set",
                      "body.a.boundary.right.label=all")
 

@@ -168,31 +168,6 @@ TEST(Norton, pointsUnderAGivenStrainAreSolvedInAFewIterations) {
   std::cout << "at most " << most << " iterations\n";
 }
 
-// t of the penalty-duality method is on the law at the strain + E^-1 (s - t).
-TEST(Norton, regularisedStressIsOnTheLaw) {
-  std::mt19937 random(11);
-  for (const double n : exponents)
-    for (const double ratio : {1e-3, 1.0, 1e6}) {
-      const Elasticity elasticity{3, 0.3};
-      const NortonCreep creep{1, 1, n};
-      const double weight = weightFor(ratio, 2, elasticity, creep);
-      const Direct direct = directOf(elasticity, creep, Plane::stress, weight);
-      const auto material = nortonMaterial(elasticity, creep, Plane::stress);
-      const Vector3d s = randomStress(random, 2);
-      const Matrix stress0 = Vector3d(randomStress(random, 1));
-      const Matrix strain = Vector3d(direct.given(s.array().cast<Long>()).cast<double>().matrix());
-      Linearisation law = material->room(1);
-      material->regularise({weight, stress0, strain}, s, Vector::Zero(1), 1, law, 0, 1);
-      const Vector3d t = law.predictor.col(0);
-      const Eigen::Array3d C = 1 / elasticity.moduli();
-      const LongArray left =
-          direct.given(t.array().cast<Long>()) + (t - s).array().cast<Long>() * C.cast<Long>();
-      const Eigen::Array3d right = strain.col(0).array() + stress0.col(0).array() * C;
-      EXPECT_LE((left.cast<double>() - right).abs().maxCoeff(), 1e-12 * n * right.abs().maxCoeff())
-          << "n " << n << ", " << ratio;
-    }
-}
-
 // The same law by another stress and its rate.
 TEST(Norton, referencesAreArbitrary) {
   const NortonCreep creep{2, 3, 4};

@@ -206,34 +206,6 @@ TEST(Overstress, isPerzynasLawInPlaneStrain) {
   }
 }
 
-// t of the penalty-duality method is on the law at the strain + D^-1 (s - t).
-TEST(Overstress, regularisedStressIsOnTheLaw) {
-  std::mt19937 random(8);
-  for (const Overstress& law : {laws[0], laws[1], laws[4]})
-    for (const Plane plane : {Plane::stress, Plane::strain}) {
-      const auto material = overstressMaterial(elasticity, law, plane);
-      const int n = material->components();
-      const auto field = [&](double size) { return Matrix(randomStress4(random, size, 0).head(n)); };
-      const Matrix stress0 = field(1);
-      const Matrix stress = field(3);
-      const Matrix strain = field(0.1);
-      const Matrix total0 = field(0.01);
-      Linearisation at = material->room(1);
-      material->regularise({0.6, stress0, strain, false, &total0}, stress, Vector::Zero(1), 1, at, 0, 1);
-      const Matrix t = at.predictor;
-      Matrix elastic;
-      Matrix rate;
-      material->elasticStrain(t - stress0, elastic);
-      // The strain at which t is on the law.
-      Eigen::MatrixXd D(n, n);
-      for (int j = 0; j < n; ++j) D.col(j) = stressOf(at, Vector::Unit(n, j), 0);
-      const Matrix given = strain + D.inverse() * (stress - t);
-      const Matrix total = total0 + given;
-      material->viscoplasticRate(t, rate, &total);
-      EXPECT_LE((elastic + 0.6 * rate - given).norm(), 1e-11 * given.norm());
-    }
-}
-
 TEST(Overstress, yieldsWhereItsStressAndItsStrainSay) {
   const Matrix stress = Eigen::Vector3d(0, 0, 1.5);
   const auto flows = [&](const Overstress& law, const Matrix* total) {

@@ -8,95 +8,9 @@
 #include "base/error.h"
 #include "material/deviatoric.h"
 #include "material/interior_path.h"
-#include "material/norton.h"
-#include "material/perzyna.h"
-#include "material/rate_law.h"
-#include "material/viscoelastic.h"
+#include "unit/own_rate_laws.h"
 
 namespace mortier::own_material_test {
-
-template <class Tensor>
-auto mises(const Tensor& s) {
-  using std::sqrt;
-  using Number = decltype(s.c11);
-  Number shear = s.c12 * s.c12;
-  if constexpr (requires { s.c13; }) shear = Number(shear + s.c13 * s.c13 + s.c23 * s.c23);
-  return Number(sqrt(s.c11 * s.c11 + s.c22 * s.c22 + s.c33 * s.c33 - s.c11 * s.c22 - s.c22 * s.c33 -
-                     s.c33 * s.c11 + 3 * shear));
-}
-
-/// factor times the deviator.
-template <class Tensor, class Number>
-Tensor alongDeviator(const Tensor& s, const Number& factor) {
-  const Number mean = (s.c11 + s.c22 + s.c33) / 3;
-  Tensor result{};
-  result.c11 = factor * (s.c11 - mean);
-  result.c22 = factor * (s.c22 - mean);
-  result.c12 = factor * s.c12;
-  result.c33 = factor * (s.c33 - mean);
-  if constexpr (requires { s.c13; }) {
-    result.c13 = factor * s.c13;
-    result.c23 = factor * s.c23;
-  }
-  return result;
-}
-
-struct OwnNorton {
-  static constexpr bool needsTotalStrain = false;
-  NortonCreep creep;
-  template <class Tensor>
-  Tensor rateOf(const Tensor& s, const Tensor&) const {
-    using std::pow;
-    using Number = decltype(s.c11);
-    const Number relative = mises(s) / creep.referenceStress;
-    return alongDeviator(
-        s, Number(pow(relative, creep.exponent - 1) * (1.5 * creep.referenceRate / creep.referenceStress)));
-  }
-};
-
-struct OwnPerzyna {
-  static constexpr bool needsTotalStrain = false;
-  Viscoplasticity law;
-  template <class Tensor>
-  Tensor rateOf(const Tensor& s, const Tensor&) const {
-    using std::max;
-    using Number = decltype(s.c11);
-    return alongDeviator(
-        s, Number(max(Number(1 - law.yieldStress / mises(s)), Number(0)) / (2 * law.viscosity)));
-  }
-};
-
-struct OwnSolid {
-  static constexpr bool needsTotalStrain = true;
-  Elasticity elasticity;
-  Viscoelasticity law;
-  template <class Tensor>
-  Tensor rateOf(const Tensor& s, const Tensor& e) const {
-    using Number = decltype(s.c11);
-    const double g = law.relaxedFraction;
-    const double shear = elasticity.young / (1 + elasticity.poisson);
-    const Tensor rate = alongDeviator(s, Number(1 / (shear * law.relaxationTime)));
-    const Tensor still = alongDeviator(e, Number(g / law.relaxationTime));
-    Tensor result{};
-    result.c11 = rate.c11 - still.c11;
-    result.c22 = rate.c22 - still.c22;
-    result.c12 = rate.c12 - still.c12;
-    result.c33 = rate.c33 - still.c33;
-    if constexpr (requires { s.c13; }) {
-      result.c13 = rate.c13 - still.c13;
-      result.c23 = rate.c23 - still.c23;
-    }
-    return result;
-  }
-};
-
-OwnLaw named(std::shared_ptr<const RateLaw> law) {
-  OwnLaw own;
-  own.name = "own";
-  own.law = std::move(law);
-  own.where = "here: law = \"own\"";
-  return own;
-}
 
 constexpr Elasticity elasticity{200, 0.3};
 
@@ -229,14 +143,6 @@ TEST(OwnMaterial, regularisedLawIsMet) {
     if (name.find("Perzyna") == std::string::npos) {
       EXPECT_LE((ours.predictor - theirs.predictor).norm(), 1e-11 * theirs.predictor.norm()) << name;
     }
-    Matrix rate;
-    Matrix elastic;
-    Matrix back;
-    const Matrix total = strain0 + strain;
-    own->viscoplasticRate(ours.predictor, rate, &total);
-    own->elasticStrain(ours.predictor - stress0, elastic);
-    own->elasticStrain(stress - ours.predictor, back);
-    EXPECT_LE((elastic + 2 * rate - strain - back).norm(), 1e-10 * (strain.norm() + rate.norm())) << name;
   }
 }
 
@@ -261,31 +167,6 @@ TEST(OwnMaterial, aRateWithoutSlopesAtRestIsSolvedFromThere) {
         EXPECT_LE((moduli.col(k) - stressOf(expected, Vector::Unit(n, k), 0)).norm(), 1e-6 * moduli.norm())
             << exponent;
     }
-}
-
-// A point's answer does not depend on its neighbours, nor does anything but NaN follow from NaN.
-TEST(OwnMaterial, pointsAreIndependent) {
-  const auto material = ownMaterial(elasticity, named(rateLaw(OwnNorton{{1, 1, 5}})), Plane::strain);
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  constexpr int points = 19;
-  const auto field = [&](double size) {
-    return Matrix(Matrix::NullaryExpr(4, points, [&] { return size * normal(random); }));
-  };
-  const Matrix stress0 = field(1);
-  const Matrix strain = field(0.01);
-  Matrix stress = field(3);
-  stress(1, 4) = NAN;
-  Linearisation together = material->room(points);
-  Linearisation alone = material->room(points);
-  const MaterialStep step{0.3, stress0, strain, false};
-  material->linearise(step, stress, together, 0, points);
-  for (int i = 0; i < points; ++i) material->linearise(step, stress, alone, i, i + 1);
-  for (int i = 0; i < points; ++i) {
-    EXPECT_EQ((together.predictor.col(i) - alone.predictor.col(i)).norm(), 0) << i;
-    EXPECT_EQ((together.moduli.col(i) - alone.moduli.col(i)).norm(), 0) << i;
-  }
-  EXPECT_TRUE(together.predictor.allFinite());  // from the stress at the start of the step
 }
 
 /// The rate grows with one shear across the plane faster than with the other.

@@ -122,56 +122,6 @@ TEST(Perzyna, newtonEndsAtTheSolvedStress) {
   }
 }
 
-// Points are computed in batches; none may use its neighbours, and the last batch is not full.
-TEST(Perzyna, pointsOfABatchAreIndependent) {
-  constexpr int points = 43;
-  constexpr double weight = 1e-3;
-  std::mt19937 random(3);
-  for (const Projection projection : projections) {
-    const Elasticity elasticity{3e11, 0.3};
-    const auto material = perzynaMaterial(elasticity, {10, 1, projection});
-    Matrix stress0(3, points);
-    Matrix stress(3, points);
-    Matrix strain(3, points);
-    for (int i = 0; i < points; ++i) {
-      const double size = i % 3 == 0 ? 0.4 : std::pow(10, i % 7);  // elastic ones between flowing ones
-      stress0.col(i) = randomStress(random, 0.3);
-      stress.col(i) = randomStress(random, size);
-      strain.col(i) = randomStress(random, size).array() / elasticity.moduli();
-    }
-    for (const bool anticipate : {false, true}) {
-      Linearisation all{Matrix(3, points), Matrix(9, points)};
-      Linearisation parts{Matrix(3, points), Matrix(9, points)};
-      const MaterialStep step{weight, stress0, strain, anticipate};
-      const double residual = material->linearise(step, stress, all, 0, points).change;
-      double largest = 0;
-      for (const auto& [begin, end] : {std::pair{0, 5}, std::pair{5, 21}, std::pair{21, points}})
-        largest = std::max(largest, material->linearise(step, stress, parts, begin, end).change);
-      EXPECT_TRUE(all.predictor == parts.predictor && all.moduli == parts.moduli);
-      EXPECT_EQ(residual, largest);
-      EXPECT_EQ(residual, (all.predictor - stress).cwiseAbs().maxCoeff());
-      for (const int i : {0, 1, 13, points - 1}) {
-        const Answer alone =
-            linearise(*material, weight, stress0.col(i), strain.col(i), stress.col(i), anticipate);
-        EXPECT_TRUE(alone.predictor == all.predictor.col(i));
-      }
-    }
-  }
-}
-
-TEST(Perzyna, residualOfAnUndefinedStressIsNotANumber) {
-  constexpr int points = 11;
-  for (const auto& material : {elasticMaterial({3e11, 0.3}), perzynaMaterial({3e11, 0.3}, {10, 1})})
-    for (const double undefined : {std::nan(""), std::numeric_limits<double>::infinity()})
-      for (const int where : {0, 4, points - 1}) {
-        const Matrix zero = Matrix::Zero(3, points);
-        Matrix stress = zero;
-        stress(1, where) = undefined;
-        Linearisation result{Matrix(3, points), Matrix(9, points)};
-        EXPECT_FALSE(std::isfinite(material->linearise({0.1, zero, zero}, stress, result, 0, points).change));
-      }
-}
-
 TEST(Perzyna, tangentIsSymmetricExactlyWhenItSaysSo) {
   constexpr double rounding = 4 * epsilon;
   constexpr double clearly = 1e-2;
@@ -191,25 +141,6 @@ TEST(Perzyna, tangentIsSymmetricExactlyWhenItSaysSo) {
   }
   EXPECT_TRUE(perzynaMaterial({1, 0.3}, {1, 1, Projection::frobenius})->symmetricTangent());
   EXPECT_TRUE(elasticMaterial({1, 0.3})->symmetricTangent());
-}
-
-TEST(Perzyna, unitsOfPowersOfTwoChangeNoBit) {
-  std::mt19937 random(13);
-  for (const Projection projection : projections)
-    for (const double stress : {0x1p-37, 0x1p+20})
-      for (const double time : {0x1p-11, 0x1p+17}) {
-        const auto material = perzynaMaterial({3e11, 0.3}, {10, 1, projection});
-        const auto scaled = perzynaMaterial({stress * 3e11, 0.3}, {stress * time * 10, stress, projection});
-        const Vector3d s0 = randomStress(random, 1.5);
-        const Vector3d strain = randomStress(random, 1e-3);
-        for (const double size : {0.5, 1.0 + 1e-9, 7.0}) {
-          const Vector3d s = randomStress(random, size);
-          const Answer answer = linearise(*material, 0.01, s0, strain, s);
-          const Answer other = linearise(*scaled, time * 0.01, stress * s0, strain, stress * s);
-          EXPECT_EQ(other.predictor, stress * answer.predictor);
-          EXPECT_EQ(other.moduli, stress * answer.moduli);
-        }
-      }
 }
 
 TEST(Perzyna, wrongConstantsAreNamed) {

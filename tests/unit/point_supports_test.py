@@ -1,6 +1,4 @@
 """Supports at points: what they hold, what they carry, and places that are no vertex."""
-import csv
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -52,7 +50,7 @@ class Points(support.OfTwoBlocks):
         self.write(FREE.replace("POINTS", points) + more)
         run = self.mortier("run", "scene.toml", "--out", "out", "--set", "output.every=1", *settings,
                            code=code)
-        return run, json.loads(self.read(f"out{'.failed' if code else ''}/summary.json"))
+        return run, self.summary_of(f"out{'.failed' if code else ''}")
 
     def test_the_free_motion_of_two_held_components_is_named(self):
         self.write(FREE.replace("POINTS", "[[body.point]]\nat = [2, 1]\nux = 0\nuy = 0\n"))
@@ -87,7 +85,7 @@ name = "moves"
 displacement = { body = "block", point = [2, 0] }
 component = "y"
 """)
-        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        rows = self.rows_of("out/history.csv")
         self.assertEqual(float(rows[-1]["moves[m]"]), 0.75)
 
     def test_a_point_is_a_vertex_to_a_thousandth_of_the_edges(self):

@@ -1,6 +1,4 @@
 """Quantities of a scene: columns of the history, the log and the summary, and what cannot be asked for."""
-import csv
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -46,7 +44,7 @@ class Quantities(OfTwoBlocks):
     def test_columns_log_and_summary(self):
         self.write(TWO_BLOCKS + ASKED)
         run = self.mortier("run", "scene.toml", "--out", "out")
-        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        rows = self.rows_of("out/history.csv")
         self.assertEqual(len(rows), 4)
         for i, row in enumerate(rows):
             load = 10 * (i + 1) / 4
@@ -54,7 +52,7 @@ class Quantities(OfTwoBlocks):
             self.assertAlmostEqual(float(row["pressed[N/m]"]), -load, delta=1e-11)
             self.assertAlmostEqual(float(row["turns[N]"]), 0, delta=1e-10)
             self.assertAlmostEqual(float(row["sinks[m]"]) / float(row["top[m]"]), 1, places=12)
-        final = json.loads(self.read("out/summary.json"))["quantities"]
+        final = self.summary_of()["quantities"]
         self.assertEqual(final["held"]["value"], float(rows[-1]["held[N/m]"]))
         self.assertEqual(final["turns"]["unit"], "N")
         self.assertRegex(run.stdout, r"\nquantities held 10 N/m \+- 0, pressed -10 N/m \+- 0, "
@@ -66,8 +64,8 @@ class Quantities(OfTwoBlocks):
         for scheme in "backward-euler", "crank-nicolson", "sdirk2":
             run = self.mortier("run", "scene.toml", "--out", "out", "--set", f"time.scheme={scheme}",
                                "time.steps=40")
-            rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
-            summary = json.loads(self.read("out/summary.json"))
+            rows = self.rows_of("out/history.csv")
+            summary = self.summary_of()
             final = summary["quantities"]
             for row in rows:  # the lower body is elastic
                 value = {name.split("[")[0]: float(row[name]) for name in row if name != "rung"}
@@ -104,7 +102,7 @@ class Quantities(OfTwoBlocks):
             for name, body, label, of in (("all", "upper", 1, ""), ("part", "upper", 1, part),
                                           ("soft", "lower", 3, part + ", margin = 0.1"))))
         run = self.mortier("run", "scene.toml", "--out", "out")
-        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        rows = self.rows_of("out/history.csv")
         for i, row in enumerate(rows):
             for name in ("all", "part", "soft"):
                 self.assertAlmostEqual(float(row[name + "[Pa]"]), 10 * (i + 1) / 4, delta=1e-11)

@@ -1,6 +1,5 @@
 """Units of a scene: numbers with their own are converted, labels are the scene's, wrong ones are refused."""
 import csv
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -49,7 +48,7 @@ class SceneUnits(OfTwoBlocks):
     def test_numbers_with_units_are_those_without(self):
         _, plain = self.run_of("plain", TWO_BLOCKS)
         _, measured = self.run_of("measured", 'units = "m, N, Pa"\n' + MEASURED)
-        self.assertNotIn("units", json.loads(self.read("plain/summary.json")))
+        self.assertNotIn("units", self.summary_of("plain"))
         energy = plain[0].index("elastic_energy[J/m]")
         self.assertEqual(measured[0][energy], "elastic_energy[N m/m]")
         for a, b in zip(plain[1:], measured[1:]):
@@ -67,7 +66,7 @@ class SceneUnits(OfTwoBlocks):
                 if name != "rung":
                     expected = float(x) / (3600 if name.startswith("time") else 1)
                     self.assertAlmostEqual(expected, float(y), delta=1e-9 * abs(expected) + 1e-15, msg=name)
-        self.assertEqual(json.loads(self.read("hours/summary.json"))["units"]["time"], "h")
+        self.assertEqual(self.summary_of("hours")["units"]["time"], "h")
         self.assertEqual(runs.read(self.folder / "hours").time_unit, "h")
         self.mortier("freefem", "hours.toml", "hours.edp")
         self.assertIn("// viscosity [Pa h]", self.read("hours.edp"))
@@ -125,7 +124,7 @@ class SceneUnits(OfTwoBlocks):
         self.assertRegex(log, r"\nquantities held 10 N/mm \+- 0, .* mises \S+ MPa at \(\S+, \S+\) \+- 0\n")
         for wrong in (r"\bPa\b", r"N/m\b", r"\d m\b"):
             self.assertNotRegex(log, wrong)
-        summary = json.loads(self.read("out/summary.json"))
+        summary = self.summary_of()
         self.assertEqual(summary["units"], {"length": "mm", "force": "N", "stress": "MPa", "time": "s"})
         self.assertEqual(summary["quantities"]["top"]["unit"], "mm")
         result = runs.read(self.folder / "out")

@@ -1,6 +1,5 @@
 """Contact conditions without a force of their own are reported, with their number and the reason,
 and only then."""
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -30,7 +29,7 @@ class SpecialConditions(OfTwoBlocks):
         """The report of interface and conditions, and the numbers of the summary."""
         self.write(scene)
         log = self.mortier("run", "scene.toml", "--set", "time.steps=2", *settings).stdout
-        summary = json.loads(self.read("out/scene/summary.json"))
+        summary = self.summary_of("out/scene")
         counts = (summary["interfaces"][0]["held_ends"], summary["idle_conditions"],
                   summary["dependent_conditions"])
         return log, counts
