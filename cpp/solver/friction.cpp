@@ -60,7 +60,10 @@ FrictionSolution solveIndependent(const ContactProblem& problem, const Vector& q
     if (nearby) found = system.newton(std::move(*nearby));
   }
   if (goesOn() && system.components() > 1) {
-    if (problem.G.cols() == 0 || !uncarriedLoad(problem, springs.load)) found = solveBySweeps(system);
+    // They are not tried again for the same load.
+    if (!work.swept && (problem.G.cols() == 0 || !uncarriedLoad(problem, springs.load)))
+      found = solveBySweeps(system);
+    work.swept = work.swept || !good();
   } else if (goesOn()) {
     followNearby(system, [&](const FrictionSystem& moved) {
       const std::vector<FrictionSets> passages = followPath(moved, 0);

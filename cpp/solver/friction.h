@@ -14,8 +14,8 @@
 // method that terminates (friction_path.cpp): for every positive definite W there is a solution, whatever mu
 // (docs/theory.md).
 //
-// In space the direction d of a slipping node is unknown, too. Newton's method linearises t = b d: along d the
-// force follows the pressure, and across it the node sticks but for the compliance of turning,
+// In space the direction d of a slipping node is unknown, too. Newton's method linearises t = b d: along d
+// the force follows the pressure, and across it the node sticks but for the compliance of turning,
 //   t = (mu p + c) d + t_e e,   e . v + |v|/b t_e = 0,   e normal to d.
 // Where it cycles, sweeps of node after node (friction_sweeps.cpp) go before it.
 #pragma once
@@ -50,6 +50,7 @@ struct FrictionWork {
   int events = 0;          ///< changes of set on the path, 0 where none was taken
   bool ambiguous = false;  ///< sets with det A < 0 were met: with some other q this problem has several
                            ///< solutions (docs/decisions.md)
+  bool swept = false;      ///< in space: sweeps led to no solution
   bool singular = false;   ///< a system was singular but for rounding: conditions depend on each other, and
                            ///< where it is solved x is one choice of many
 };

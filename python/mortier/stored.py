@@ -122,7 +122,8 @@ def side_of(contact: Any, index: int, interface: dict[str, str]) -> Any:
     axes = contact.position.shape[1]
 
     def none(name: str) -> Any:
-        return np.zeros((rows.sum(), 3) if axes == 3 and name in ("friction", "shear", "slip") else rows.sum())
+        along = axes == 3 and name in ("friction", "shear", "slip")
+        return np.zeros((rows.sum(), 3) if along else rows.sum())
     found = {name: none(name) if of is None else of[rows] for name, of in columns.items()}
     return StoredContact(interface["nonmortar"], interface["mortar"], contact.position[rows],
                          **{name: of.astype(np.int32 if name in ("vertex", "slipping") else float)

@@ -1,5 +1,5 @@
-"""Friction in space: forces that statics knows, in any direction; planes of symmetry; bodies that friction alone
-holds; units."""
+"""Friction in space: forces that statics knows, in any direction; planes of symmetry; bodies that friction
+alone holds; units."""
 import csv
 import json
 import math
@@ -125,7 +125,8 @@ class SpaceFriction(InFolder):
                   in self.solved(rows.replace("[time]", quantities + "[time]"))["quantities"].items()}
         self.assertAlmostEqual(
             (values["stored_energy_upper"] + values["stored_energy_lower"]
-             + values["slip"]) / (values["external_work_upper"] + values["external_work_lower"]), 1, delta=1e-12)
+             + values["slip"])
+            / (values["external_work_upper"] + values["external_work_lower"]), 1, delta=1e-12)
         self.assertGreater(values["slip"], 1e-3*values["stored_energy_upper"])
 
     def test_units_and_steps_of_the_error(self):
