@@ -108,7 +108,6 @@ std::optional<FrictionSolution> FrictionSystem::newtonInSpace(FrictionSets sets)
 
 void FrictionSystem::nextInSpace(const FrictionSolution& trial, const Vector& aim, Eigen::Index node,
                                  FrictionSets& next) const {
-  constexpr double most = 1e8;  // where b is next to nothing the force across is, too
   const Eigen::Index row = first(node);
   const Point force = sticks(trial.sets, node) ? trial.force.segment<2>(row) : aim.segment<2>(row);
   const double limit = bound(trial, node);
@@ -116,10 +115,9 @@ void FrictionSystem::nextInSpace(const FrictionSolution& trial, const Vector& ai
   const bool presses = next.closed[problem_.along.node[node]] != 0 || law_.limit[node] > 0;
   next.slip[node] = presses && size <= limit ? 0 : 1;
   next.directions[node] = {};
-  if (next.slip[node] == 0 || !(size > 0)) return;
   // t - v/W = (b + |v|/W) d
-  next.directions[node] = {force / size,
-                           compliance_[row] * std::min(most, std::max(size - limit, 0.0) / limit)};
+  if (next.slip[node] != 0 && limit > 0)
+    next.directions[node] = {force / size, compliance_[row] * std::max(size - limit, 0.0) / limit};
 }
 
 void FrictionSystem::clipInSpace(FrictionSolution& trial, Eigen::Index node) const {
