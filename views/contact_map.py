@@ -1,4 +1,5 @@
-"""Maps of contact surfaces in space: pressure and gap on the nonmortar side of every interface."""
+"""Maps of contact surfaces in space: pressure, with friction shear stress, and gap on the nonmortar side of
+every interface."""
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -47,6 +48,9 @@ class Map:
         self.body, self.unit = view.run.bodies[described["nonmortar"]], view.result.length_unit
         self.vertex, self.closed = contact.vertex[rows], contact.force[rows] > 0
         self.pressure, self.gap = contact.pressure[rows], contact.gap[rows]
+        rough = contact.shear is not None
+        self.shear = contact.shear[rows] if rough else np.zeros((len(rows), 3))
+        self.slips = contact.slipping[rows] != 0 if rough else np.zeros(len(rows), bool)
         self.surface = surface_of(self.body)
         self.chosen = np.flatnonzero(np.isin(self.surface.nodes, self.vertex).all(1))
         self.look()
@@ -102,7 +106,8 @@ class Map:
             self.seen = Buffer([Seen(corners, None, edges, shaded=self.folded)], window, width)
         return self.seen
 
-    def draw(self, axes, values, norm, colours, width):
+    def draw(self, axes, values, norm, colours, width, along=None):
+        """along: vectors that are drawn as arrows."""
         window = self.window()
         if len(self.chosen):
             by_node = np.zeros(len(self.body.points))
@@ -117,6 +122,11 @@ class Map:
                 if len(chosen):  # a line without points would have a place in the layout
                     axes.plot(*chosen.T, ls="", marker="o", ms=2.6, mfc=fill, mec=INK, mew=0.5, zorder=5,
                               clip_on=False)
+        if along is not None and self.marked and values.any():
+            drawn = self.closed
+            axes.quiver(*self.at[drawn].T, *(along[drawn] @ self.turned.T)[:, :2].T, color=INK, width=0.005,
+                        angles="xy", scale_units="xy", scale=values.max() / self.side,
+                        alpha=np.where(self.slips[drawn], 1.0, 0.4), zorder=6)
         axes.set_aspect("equal")
         axes.set_xlim(window[:2])
         axes.set_ylim(window[2:])
@@ -131,6 +141,10 @@ def name_axes(axes, turned, unit):
                        f"along ({', '.join(f'{x:.2f}' for x in np.round(row, 2) + 0.0)})", unit))
 
 
+def norms(vectors):
+    return np.linalg.norm(vectors, axis=1)
+
+
 class Straight:
     """A surface without the middles of its sides: contact nodes are its corners."""
 
@@ -139,28 +153,37 @@ class Straight:
 
 
 def contact(views):
-    """Pressure and gap on the nonmortar surface of every interface."""
+    """Pressure, shear stress where there is friction, and gap on the nonmortar surface of every interface."""
     columns = [(each, Map(each, k)) for each in views for k in interfaces_of(each)]
     if not columns:
         return None
-    n, width = len(columns), 4.0
-    figure, axes = plt.subplots(2, n, figsize=(1.8 + width * n, 7.6), squeeze=False, layout="constrained")
+    maps = [each for _, each in columns]
     small = ROUNDING * extent(bodies_of(views))
-    drawn = [norm_of([each.pressure for _, each in columns], signed=False),
-             norm_of([each.shown(each.gap) for _, each in columns], True, small)]
-    for (view, each), (above, below) in zip(columns, axes.T):
-        each.draw(above, each.pressure, *drawn[0], width)
-        each.draw(below, each.gap, *drawn[1], width)
-        above.set_title((f"{view.result.name}: " if len(views) > 1 else "") + each.words, loc="left")
-    words = ("contact pressure", "gap, weighted, at nodes")
-    units = (views[0].result.stress_unit, views[0].result.length_unit)
-    for row, of_row, what, unit in zip(axes, drawn, words, units):
-        figure.colorbar(ScalarMappable(*of_row), ax=row, shrink=0.9, label=labelled(what, unit))
+    stress, length = views[0].result.stress_unit, views[0].result.length_unit
+    # Words, unit, values by nodes, norm and colours, and vectors beside them.
+    fields = [("contact pressure", stress, lambda each: each.pressure,
+               norm_of([each.pressure for each in maps], signed=False), lambda each: None)]
+    rough = any(view.run.contact.shear is not None for view in views)
+    if rough:
+        fields.append(("shear stress on the nonmortar body", stress, lambda each: norms(each.shear),
+                       norm_of([norms(each.shear) for each in maps], signed=False), lambda each: each.shear))
+    fields.append(("gap, weighted, at nodes", length, lambda each: each.gap,
+                   norm_of([each.shown(each.gap) for each in maps], True, small), lambda each: None))
+    n, width = len(columns), 4.0
+    figure, axes = plt.subplots(len(fields), n, figsize=(1.8 + width * n, 3.8 * len(fields)), squeeze=False,
+                                layout="constrained")
+    for (view, each), column in zip(columns, axes.T):
+        for ax, (_, _, values, norm, along) in zip(column, fields):
+            each.draw(ax, values(each), *norm, width, along(each))
+        column[0].set_title((f"{view.result.name}: " if len(views) > 1 else "") + each.words, loc="left")
+    for row, (what, unit, _, norm, _) in zip(axes, fields):
+        figure.colorbar(ScalarMappable(*norm), ax=row, shrink=0.9, label=labelled(what, unit))
     time = pictures.time_words(views[0].result, views[0].step)
     figure.suptitle(f"{views[0].result.title}, {time}" if len(views) == 1 else time, x=0.02, ha="left",
                     fontsize=10.5)
     if any(each.marked for _, each in columns):
-        figure.text(0.02, 0.0, "dots: nodes of the nonmortar side, filled where there is contact", fontsize=8,
-                    va="bottom")
+        arrows = "; arrows: shear stress, pale where nodes stick" if rough else ""
+        figure.text(0.02, 0.0, f"dots: nodes of the nonmortar side, filled where there is contact{arrows}",
+                    fontsize=8, va="bottom")
         figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.97))
     return figure

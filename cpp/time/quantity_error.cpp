@@ -64,6 +64,15 @@ class Adjoint {
   Adjoint(const Model& model, StepTaker& taker, double begin)
       : model_(model), state_(taker.state()), initial_(initialState(model)), on_(startingIterate(state_)) {
     on_.active = taker.active();
+    for (size_t k = 0; k < on_.slipDirections.size(); ++k) {
+      const ContactInterface& interface = model.interfaces[k];
+      if (on_.slipDirections[k].empty()) continue;
+      const Vector slip = interface.slip(state_.bodies[interface.pair().nonmortar.body].displacement,
+                                         state_.bodies[interface.pair().mortar.body].displacement);
+      for (Eigen::Index row = 0; row < interface.rows(); ++row)
+        if (const double force = state_.frictionForce[k].segment<2>(2 * row).norm(); force > 0)
+          on_.slipDirections[k][row].turning = slip.segment<2>(2 * row).norm() / force;
+    }
     StepData data{state_.time, state_.time - begin, {}};
     initial_.time = begin;
     addThermalStrain(model, initial_, data);
