@@ -35,15 +35,15 @@ AlignedProblem::AlignedProblem(const ContactProblem& problem, const FrictionLaw&
     }
   }
   Matrix& W = problem_.W;
-  Vector along1(W.rows());
+  Vector turned(W.rows());
   for (Eigen::Index k = 0; k < nodes; ++k) {
     const Point& d = directions_[k];
     if (d.y() == 0 && d.x() == 1) continue;
     auto first = W.col(n + 2 * k);
     auto second = W.col(n + 2 * k + 1);
-    along1 = d.x() * first + d.y() * second;
+    turned = d.x() * first + d.y() * second;
     second = d.x() * second - d.y() * first;
-    first = along1;
+    first = turned;
   }
   for (Eigen::Index column = 0; column < W.cols(); ++column) turn(W.col(column), 1);
   W.diagonal() += turning_;
@@ -90,6 +90,7 @@ std::optional<FrictionSolution> FrictionSystem::newtonInSpace(FrictionSets sets)
     if (residual(*trial) <= roundingOfForces) return clipped(*trial);
     FrictionSolution ahead = *trial;
     double size = sizeOff(ahead);
+    if (!std::isfinite(size)) return std::nullopt;
     for (double part = 1; !(size <= (1 - less * part) * before) && part > shortest; size = sizeOff(ahead)) {
       part /= 2;
       ahead.force = here.force + part * (trial->force - here.force);
