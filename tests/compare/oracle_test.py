@@ -122,7 +122,7 @@ FAULTS = [
     ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),
     ("tangent turned the other way", "rows", "second ? 0 - entryV(e) : entryV(e)",
      "second ? entryV(e) : 0 - entryV(e)", "sloped", "mortar friction", "friction"),
-    ("slip from the beginning", "loop", "g0(i) = Cu(i)", "g0(i) = 0*Cu(i)", "sloped", "mortar friction", ""),
+    ("slip from the beginning", "system", "tiedRow(i) ? 0. : Cu(i)", "0*Cu(i)", "sloped", "mortar friction", ""),
     ("bound of pressures for forces", "friction", "*rowLength(normalOf(row))", "*1", "stack",
      "mortar friction", ""),
     ("slip that goes on against t", "friction", "side*gd(i) < -tinySlip", "false", "sloped",
