@@ -106,7 +106,8 @@ component = "y"
                     np.testing.assert_array_equal(getattr(side, key), told[key])
                 for key in ("friction", "shear", "slip", "slipping"):
                     rows = contact[step.number, k]
-                    none = [0.0] * len(rows) if len(axes) == 2 or key == "slipping" else [[0.0]*3] * len(rows)
+                    of_node = [0.0]*3 if len(axes) == 3 and key != "slipping" else 0.0
+                    none = [of_node] * len(rows)
                     written = [float(row[key]) for row in rows] if name == "friction" else none
                     np.testing.assert_array_equal(getattr(side, key), written)
                 np.testing.assert_array_equal(side.position, np.column_stack([told[axis] for axis in axes]))
