@@ -167,7 +167,6 @@ steps = 10
                 ("plane=strain", "plane = \"strain\", expected none with dimension = 3"),
                 ("accuracy={energy=0.1, bound=true}", "bound = true, expected none with dimension = 3"),
                 ('accuracy={quantity="floor", tolerance=0.1}', 'quantity = "floor", expected'),
-                ("contact.friction=0.3", "friction, expected none"),
                 ("contact.sliding=finite", "sliding = \"finite\", expected none"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
