@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "mesh/nastran.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
@@ -28,6 +29,10 @@ bool isOneOf(const std::vector<std::string>& extensions, const std::string& path
 const std::vector<std::string> ofGmsh{".msh",  ".geo", ".geo_unrolled", ".brep", ".step", ".stp",
                                       ".iges", ".igs", ".unv",          ".bdf",  ".nas"};
 const std::vector<std::string> ofPython{".inp", ".vtk", ".vtu", ".xdmf", ".med", ".meshb"};
+
+void requireReadableByGmsh(const std::string& path) {
+  if (isOneOf({".bdf", ".nas"}, path)) requireCardsOfGmsh(path);
+}
 
 void requireNoGeometry(const MeshSource& source) {
   if (source.size > 0 || !source.parameters.empty())
@@ -57,7 +62,10 @@ bool isMeditFile(const std::string& path) {
 
 TriangleMesh readMesh(const MeshSource& source) {
   if (source.shape) return shapeMesh(*source.shape);
-  if (isGmshFile(source.path)) return readGmsh(source);
+  if (isGmshFile(source.path)) {
+    requireReadableByGmsh(source.path);
+    return readGmsh(source);
+  }
   requireNoGeometry(source);
   if (isPythonFile(source.path)) return readPythonFile(source);
   return readMedit(source.path, source.regions);
@@ -66,7 +74,10 @@ TriangleMesh readMesh(const MeshSource& source) {
 TetrahedronMesh readSpaceMesh(const MeshSource& source) {
   if (source.sweep) return sweptMesh(readMesh(source), *source.sweep);
   if (source.inSpace) return shapeMesh(*source.inSpace);
-  if (isGmshFile(source.path)) return readSpaceGmsh(source);
+  if (isGmshFile(source.path)) {
+    requireReadableByGmsh(source.path);
+    return readSpaceGmsh(source);
+  }
   requireNoGeometry(source);
   if (isPythonFile(source.path)) return readSpacePythonFile(source);
   return readSpaceMedit(source.path, source.regions);

@@ -136,6 +136,13 @@ def bulk(strip, head="", tail="ENDDATA\n"):
     return head + "\n".join(lines) + "\n" + tail
 
 
+BULK = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\nCTETRA,1,7,1,2,3,4\n"
+
+
+def columns(cards):
+    return "\n".join("".join(word.ljust(8) for word in card.split(",")) for card in cards.split("\n"))
+
+
 class MeshFiles(InFolder):
     def info(self, name):
         done = self.mortier("mesh", "info", name)
@@ -234,6 +241,12 @@ class MeshFiles(InFolder):
                 ("a.vtu", "", "a.vtu: meshio cannot read it: ReadError: in _parse_raw_binary"),
                 ("a.msh", "4 2 4\n0 0 1\n", "a.msh:1: expected $MeshFormat, with which meshes of Gmsh begin; "
                  "files of other kinds: .msh, .geo, "),
+                ("a.bdf", BULK.replace("1,7,1", "1,,1"), "a.bdf:5: CTETRA: field 3 of this line is blank"),
+                ("a.nas", columns(BULK.replace("1,7,1", "1,,1")), "a.nas:5: CTETRA: field 3 of this line"),
+                ("a.bdf", BULK.replace("4\n", "4,5,,+\n+,7,8,9,10\n"),
+                 "a.bdf:6: CTETRA: the last field of the line before is blank"),
+                ("a.bdf", BULK.replace("GRID,2,,", "GRID,2,5,"), "a.bdf:2: node 2 in the system of"),
+                ("a.bdf", BULK.lower(), "a.bdf:1: grid, expected cards in capital letters"),
                 ("a.meshb", "\x01\0\0\0", "a.meshb: meshio cannot read it: "),
                 ("a.mesh", "*NODE\n", "a.mesh:1: '*NODE', expected MeshVersionFormatted as the first word "
                  "of a Medit file; files of other kinds: .msh, .geo, "),
