@@ -357,14 +357,15 @@ def with_meshio(path, use=lambda mesh: mesh):
 def read_vtu(path):
     def body_of(mesh):
         elements = next(mesh.cells_dict[kind] for kind in CELLS if kind in mesh.cells_dict)
-        corners = 3 if elements.shape[1] in (3, 6) else 4
+        corners, components = (3, 4) if elements.shape[1] in (3, 6) else (4, 6)
         cells = {name: values[0] for name, values in mesh.cell_data.items()}
         if rigid := "stress" not in cells:
             count, scalars = len(elements), ("von_mises", "viscoplastic", "error")
-            cells |= {"stress": np.zeros((count, 4)), "viscoplastic_strain": np.zeros((count, 4)),
+            cells |= {"stress": np.zeros((count, components)),
+                      "viscoplastic_strain": np.zeros((count, components)),
                       **{name: np.zeros(count) for name in scalars}}
-            if elements.shape[1] == 6:
-                cells["stress_at_points"] = np.zeros((count, 12))
+            if elements.shape[1] > corners:
+                cells["stress_at_points"] = np.zeros((count, corners * components))
         axes = corners - 1
         body = Body(mesh.point_data["displacement"][:, :axes], cells["stress"], mesh.points[:, :axes],
                     **{"triangles" if axes == 2 else "tetrahedra": elements[:, :corners]},

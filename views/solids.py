@@ -199,7 +199,8 @@ def run_data(result, share):
         described = mesh.json(name)
         block = Block()
         block.add_integers(touching[name])
-        bodies.append({**described, "touching": len(touching[name]), "contact": block.json()})
+        bodies.append({**described, "rigid": body.rigid, "touching": len(touching[name]),
+                       "contact": block.json()})
     steps, ranges, earlier = [], [], None
     for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
         run = result.at(step)

@@ -67,7 +67,8 @@ def draw_bodies(axes, run, look, scale, window, width, values=None, norm=None, c
     """width: of the axes, inches; contact: the name of a field that contact surfaces have, which are seen
     through the bodies. Returns the buffer."""
     turned = eye(look)
-    seen = [seen_of(body, turned, scale, None if values is None or contact else values[name], norm, colours,
+    bare = values is None or contact
+    seen = [seen_of(body, turned, scale, None if bare or body.rigid else values[name], norm, colours,
                     0.7 if i % 2 else 0.85) for i, (name, body) in enumerate(run.bodies.items())
             if name not in look.hidden]
     buffer = Buffer(seen, window, surfaces.PIXELS * width)

@@ -27,7 +27,7 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
            "equal steps, or those of a run (--steps-of)");
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
-      if (body.isTool() && c.component == 2 && isFollowed(scene, body.name) &&
+      if (body.isTool() && c.turns() && isFollowed(scene, body.name) &&
           (c.kind == ConditionDescription::Kind::traction ||
            !(c.value.constant && c.value.value(0, 0, 0) == 0)))
         refuse(c.where + ": tool " + body.name + ": a tool that turns beside sliding = \"finite\"",
@@ -155,6 +155,7 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
   };
   if (scene.degree != 1) refuse(scene.path + ": degree = 2", "1");
   for (const BodyDescription& body : scene.bodies) {
+    if (body.isTool()) refuse(body.where + ": tool " + body.name, "bodies that strain");
     if (body.material.flows() && body.material.as<Viscoplasticity>() == nullptr)
       refuse(body.where + ": body " + body.name + ": material: law", "\"elastic\" or \"perzyna\"");
     if (body.temperature) refuse(body.temperature->where + ": temperature", "none");

@@ -135,12 +135,12 @@ void Run::open() {
   lastCheckpoint_ = processSeconds();
   if (options_.quiet) return;
   const MemoryNeed need = memoryNeed(*first.model, first.scene().solver);
-  const std::string ofFriction = anyFriction(*first.model) ? ", " + forFriction(need) : "";
+  const std::string friction = anyFriction(*first.model) ? forFriction(need) : "";
   const bool single =
       std::any_of(first.model->bodies.begin(), first.model->bodies.end(), [&](const Body& body) {
         return engineOf(*first.model, body, first.scene().solver) == LinearEngine::single;
       });
-  log_.print("memory     " + aboutMemory(need.all) + ofFriction +
+  log_.print("memory     " + aboutMemory(need.all) + (friction.empty() ? "" : ", " + friction) +
              (single ? ", factors in single precision, corrected" : "") +
              (rounds_ ? ", first meshes\n" : "\n"));
   if (const DistributedEngine* engine = DistributedEngine::ofProgram())

@@ -104,6 +104,9 @@ Body::Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Materia
       largestGradient_(space_->largestGradient()),
       extent_(mortier::extent(space_->mesh())) {
   requirePlaces(space_->mesh(), name_, conditions_);
+  if (!rigid()) return;
+  weights_.clear();
+  findMotions();
 }
 
 double Body::largestCoordinate() const {

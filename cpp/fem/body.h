@@ -36,15 +36,16 @@ struct InitialStress {
   Datum value = {};
 };
 
-/// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
-/// Its displacements are those of linear theory, u = theta x (x - at): rows of contact keep their normals, so
-/// that a disc that turns about its centre stays where it is. Where contact follows it and it may turn, they
-/// stand for the three motions, and its nodes are where a rotation by theta takes them (Body::moved).
+/// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise; in
+/// space along x, y, z and by angles about these axes. Its displacements are those of linear theory,
+/// u = theta x (x - at): rows of contact keep their normals, so that a disc that turns about its centre stays
+/// where it is. Where contact follows it and it may turn, they stand for the motions, and its nodes are where
+/// a rotation by theta takes them (Body::moved).
 struct RigidMotion {
-  Point at;                    ///< [m]
-  std::array<Datum, 3> held;   ///< [m], [m] and [rad], functions of time; empty where the motion is free
-  std::array<Datum, 3> force;  ///< of free motions, along x and y [N/m] and the moment [N]; may be empty
-  bool turns = false;          ///< by finite angles
+  SpacePoint at;             ///< z = 0 in the plane [m]
+  std::vector<Datum> held;   ///< [m] and [rad], functions of time; empty where the motion is free
+  std::vector<Datum> force;  ///< of free motions [N/m], [N], in space [N], [N m]; may be empty
+  bool turns = false;        ///< by finite angles
 };
 
 struct Conditions {
@@ -74,8 +75,8 @@ class Body {
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
        int degree = 1, bool axisymmetric = false, bool averaged = false);
-  /// A body in space. Of what follows below, what refers to triangles, axes of revolution and rigid motions
-  /// is of the plane, and empty. \throws InputError
+  /// A body in space. Of what follows below, what refers to triangles and axes of revolution is of the plane,
+  /// and empty. \throws InputError
   Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
        Conditions conditions, int degree, bool averaged = false);
 
@@ -133,13 +134,17 @@ class Body {
   [[nodiscard]] bool rigid() const { return conditions_.rigid.has_value(); }
   /// These motions by dofs, [m] per unit. \pre rigid()
   [[nodiscard]] const Matrix& freeMotions() const { return freeMotions_; }
-  /// Displacement at the reference point and angle of a rigid displacement (dofs). \pre rigid()
-  [[nodiscard]] Eigen::Vector3d motionOf(const Vector& displacement) const {
-    return toMotion_ * displacement;
-  }
-  /// Resultants and moment about the reference point of nodal forces (dofs), of those components that are
+  /// Displacement at the reference point and angles of a rigid displacement (dofs). \pre rigid()
+  [[nodiscard]] Vector motionOf(const Vector& displacement) const { return toMotion_ * displacement; }
+  /// Of each dof in one of these motions. \pre rigid()
+  [[nodiscard]] Vector sharesIn(int motion) const { return toMotion_.row(motion); }
+  /// The reverse of motionOf(). \pre rigid()
+  [[nodiscard]] Vector displacementOf(const Vector& motion) const { return motions_ * motion; }
+  /// The number of the rotation about an axis (0: x) among the motions. \pre rigid()
+  [[nodiscard]] int rotationAbout(int axis) const { return dimension() == 3 ? 3 + axis : 2; }
+  /// Resultants and moments about the reference point of nodal forces (dofs), of those components that are
   /// prescribed: the others are zero. \pre rigid()
-  [[nodiscard]] Eigen::Vector3d heldForce(const Vector& nodal) const;
+  [[nodiscard]] Vector heldForce(const Vector& nodal) const;
 
   /// Whether it turns by finite angles.
   [[nodiscard]] bool turns() const { return rigid() && conditions_.rigid->turns; }
@@ -214,8 +219,8 @@ class Body {
  private:
   void findMotions();
   /// A rigid displacement (dofs) with prescribed components in place of its own. \param held  their values
-  [[nodiscard]] Vector withHeld(const Eigen::Vector3d& held, const Vector& displacement) const;
-  [[nodiscard]] Eigen::Vector3d heldAt(double t) const;
+  [[nodiscard]] Vector withHeld(const Vector& held, const Vector& displacement) const;
+  [[nodiscard]] Vector heldAt(double t) const;
   [[nodiscard]] Vector rigidLoad(double t) const;
   [[nodiscard]] const TangentAssembly& assembly() const;
   /// Calls work(ElementData) with its triangles or tetrahedra.
@@ -246,10 +251,8 @@ class Body {
   bool axisymmetric_ = false;
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   std::optional<VolumePatches> patches_;
-  // Of a rigid body: its three motions by dofs, those that are free, and what finds the three of a rigid
-  // displacement.
-  Matrix motions_, freeMotions_;
-  Eigen::Matrix<double, 3, Eigen::Dynamic> toMotion_;
+  // Of a rigid body: its motions by dofs, those that are free, and what finds them of a rigid displacement.
+  Matrix motions_, freeMotions_, toMotion_;
   double largestGradient_ = 0;
   double extent_ = 0;
   Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none

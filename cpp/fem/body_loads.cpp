@@ -46,11 +46,11 @@ Point directed(int component, const Point& along) {
 }  // namespace
 
 Vector Body::load(double t) const {
+  if (rigid()) return rigidLoad(t);
   if (space_) return spaceLoad(t);
   Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
   addTractions(t, f, false);
   addForces(t, f, false);
-  if (rigid()) f += rigidLoad(t);
   return f;
 }
 

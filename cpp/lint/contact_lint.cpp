@@ -232,10 +232,10 @@ Vector turnOf(const LintInput& input, const SideDescription& side, double t) {
   const std::vector<Point>& x = input.meshes[b]->vertices;
   Vector u = Vector::Zero(2 * static_cast<Eigen::Index>(x.size()));
   for (const ConditionDescription& c : body.conditions)
-    if (body.isTool() && c.component == 2 && c.kind == ConditionDescription::Kind::displacement)
+    if (body.isTool() && c.turns() && c.kind == ConditionDescription::Kind::displacement)
       for (size_t v = 0; v < x.size(); ++v)
         u.segment<2>(2 * static_cast<Eigen::Index>(v)) =
-            c.value.value(0, 0, t) * turned(Point(x[v] - *body.reference));
+            c.value.value(0, 0, t) * turned(Point(x[v] - body.reference->head<2>()));
   return u;
 }
 

@@ -192,7 +192,7 @@ void lintDeformations(const LintInput& input, Faults& faults) {
     for (const double t : someTimes(input.scene.time)) {
       if (body.isTool()) {
         for (const ConditionDescription& c : body.conditions)
-          if (c.kind == ConditionDescription::Kind::displacement && c.component == 2 &&
+          if (c.kind == ConditionDescription::Kind::displacement && c.turns() &&
               !isFollowed(input.scene, body.name))  // else it turns by finite angles
             turn.raise(std::abs(c.value.value(0, 0, t)), c.where);
         continue;

@@ -114,8 +114,8 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
         data.push_back({moves ? SampledDatum::Kind::displacement : SampledDatum::Kind::force,
                         b,
                         &c.value,
-                        {asPoint(*c.point)},
-                        moves ? (c.component > alongY ? 1 : size) : 1 / size});
+                        {*tool.reference},
+                        moves ? (c.turns() ? 1 : size) : 1 / size});
         continue;
       }
       std::vector<SpacePoint> points = places->on([&](int label) { return c.actsOn(label); });

@@ -103,20 +103,28 @@ std::shared_ptr<const Material> materialOfRegions(
 
 namespace {
 
-Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescription& scene,
+template <class Mesh>
+Body buildTool(const BodyDescription& tool, Mesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
-  const bool axisymmetric = scene.plane == Plane::axisymmetric;
+  constexpr bool inSpace = std::is_same_v<Mesh, TetrahedronMesh>;
   RigidMotion motion{*tool.reference, {}, {}};
   for (const ConditionDescription& c : tool.conditions) {
-    requireFinite(c.value, std::vector<Point>{motion.at}, times);
+    requireFinite(c.value, std::vector<SpacePoint>{motion.at}, times);
     const bool held = c.kind == ConditionDescription::Kind::displacement;
-    (held ? motion.held : motion.force)[c.component] = finiteValue(c.value);
+    motion.held.push_back(held ? finiteValue(c.value, inSpace) : Datum());
+    motion.force.push_back(held ? Datum() : finiteValue(c.value, inSpace));
   }
   motion.turns = tool.turns() && isFollowed(scene, tool.name);
   Conditions conditions;
   conditions.rigid = std::move(motion);
-  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane), std::move(conditions),
-          scene.degree, axisymmetric};
+  std::shared_ptr<const Material> material =
+      buildMaterial(tool.material, inSpace ? Plane::none : scene.plane);
+  if constexpr (inSpace)
+    return {tool.name, std::move(mesh), std::move(material), std::move(conditions), scene.degree};
+  else
+    return {tool.name,           std::move(mesh),
+            std::move(material), std::move(conditions),
+            scene.degree,        scene.plane == Plane::axisymmetric};
 }
 
 /// Where labels or points meet, all may prescribe a motion of a node, but not differently. `described` are
@@ -177,10 +185,9 @@ Body buildBody(const BodyDescription& body, Mesh mesh, const SceneDescription& s
   constexpr bool inSpace = std::is_same_v<Mesh, TetrahedronMesh>;
   using Place = typename decltype(mesh.vertices)::value_type;
   const Plane plane = inSpace ? Plane::none : scene.plane;
-  if constexpr (!inSpace) {
-    if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
+  if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
+  if constexpr (!inSpace)
     if (plane == Plane::axisymmetric) mesh = meshAboutAxis(std::move(mesh));
-  }
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {

@@ -148,7 +148,7 @@ pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or cu
 [body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
 at | m | | `[x, y]`, with `dimension = 3` `[x, y, z]` | the vertex: to a thousandth of the shortest edge there
 ux, uy, uz | m | free | datum, one of them at least | prescribed displacement; `uz` with `dimension = 3`
-[tool] `[[tool]]` | | none | any number | a rigid body, without material and mesh ([below](#rigid-tools))
+[tool] `[[tool]]` | | none | any number | a rigid body, without material ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
 points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
@@ -157,12 +157,17 @@ labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides,
 centre | m | | `[x, y]`; with shape = "disc" | of the circle
 radius | m | | > 0; with shape = "disc" | of the circle
 lower, upper | m | | `[x, y]`; with shape = "rectangle" | its corners; labels 1 bottom, 2 right, 3 top, 4 left
-mesh | m | | as `mesh` of a body | in place of a shape: a file, of which the outline is used
-at | m | the centre | `[x, y]` | the point about which it turns, and whose displacement is prescribed
-ux, uy | m | 0 | datum in t | prescribed displacement
+mesh | m | | as `mesh` of a body | in place of a shape: a file, of which the outline is used; with
+  `dimension = 3` a file or a shape of bodies in space, of which the surface is used
+at | m | the centre; of a `mesh` the origin | `[x, y]`, in space `[x, y, z]` | the point about which it turns,
+  and whose displacement is prescribed
+ux, uy, uz | m | 0 | datum in t | prescribed displacement; `uz` with `dimension = 3`
 rotation | rad | 0 | datum in t | prescribed rotation about `at`, counterclockwise, linear
-fx, fy | N/m | | datum in t | in place of `ux`, `uy`: force on the tool, which is free in this direction
+rotation_x, rotation_y, rotation_z | rad | 0 | datum in t | the same with `dimension = 3`, about the axes
+fx, fy, fz | N/m | | datum in t | in place of `ux`, `uy`, `uz`: force on the tool, which is free in this
+  direction; of rings and in space [N]
 moment | N | | datum in t | in place of `rotation`: moment about `at`; the tool turns freely
+moment_x, moment_y, moment_z | N | | datum in t | the same with `dimension = 3`, about the axes, in [N m]
 [contact] `[contact]` or `[[contact]]` | | none | any number | contact of two bodies, without friction
   unless it is given
 kind | | `"unilateral"` | `"unilateral"`, `"tied"` | the sides may part, or move as one
@@ -225,7 +230,8 @@ mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and 
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
 component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool); with `dimension = 3` `"x"`,
-  `"y"`, `"z"`, of forces `"moment_x"`, `"moment_y"`, `"moment_z"` | of reactions, contact forces and
+  `"y"`, `"z"`, of forces `"moment_x"`, `"moment_y"`, `"moment_z"`, of a tool `"rotation_x"`,
+  `"rotation_y"`, `"rotation_z"` | of reactions, contact forces and
   displacements; moments [N], in space [N m], and rotations [rad] are counterclockwise
 about | m | the origin, of a tool `at` | `[x, y]`, in space `[x, y, z]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work

@@ -34,7 +34,10 @@ class Converter {
         convert(member, member.key, units_, byFactor("1/K", perKelvin));
       } else if (key != nullptr && !isTable && key->dimension) {
         const Units& units = at == "accuracy.max_seconds" ? ofTheClock_ : units_;
-        convert(member, member.key, units, byDimension(*key->dimension, units));
+        Dimension dimension = *key->dimension;
+        // Of tools, forces on whole rings and in space.
+        if (path == "tool" && dimension.force > 0 && !units.perDepth) ++dimension.length;
+        convert(member, member.key, units, byDimension(dimension, units));
       } else {
         convertTable(member, at);
         for (Node& element : member.elements) convertTable(element, at);

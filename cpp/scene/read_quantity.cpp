@@ -29,18 +29,19 @@ void readComponent(const TableReader& table, const BodyDescription* tool, Quanti
     all.insert(all.end(), {{"moment_x", momentX}, {"moment_y", momentY}, {"moment_z", momentZ}});
   else if (forces)
     all.emplace_back("moment", momentZ);
+  else if (quantity.whole && space)
+    all.insert(all.end(), {{"rotation_x", rotationX}, {"rotation_y", rotationY}, {"rotation_z", rotationZ}});
   else if (quantity.whole)
-    all.emplace_back("rotation", rotation);
+    all.emplace_back("rotation", rotationZ);
   Keys words;
   for (const auto& [word, component] : all) words.push_back(word);
   quantity.component = all[table.oneOf("component", words)].second;
   if (!isMoment(quantity.component))
     table.rejectIfGiven({"about"}, std::string("it only beside component = \"moment") +
                                        (space ? "_x\", \"moment_y\" or \"moment_z\"" : "\""));
-  if (space)
-    quantity.about = table.spacePoint("about", SpacePoint(0, 0, 0));
-  else
-    quantity.about.head<2>() = table.point("about", tool != nullptr ? *tool->reference : Point(0, 0));
+  const SpacePoint about = tool != nullptr ? *tool->reference : SpacePoint(0, 0, 0);
+  quantity.about =
+      space ? table.spacePoint("about", about) : asSpacePoint(table.point("about", about.head<2>()));
 }
 
 }  // namespace

@@ -71,24 +71,42 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   }
 }
 
+/// Of each motion: the keys of its displacement or angle, and of its force or moment.
+using MotionKeys = std::vector<std::array<const char*, 2>>;
+const MotionKeys inPlane{{"ux", "fx"}, {"uy", "fy"}, {"rotation", "moment"}};
+const MotionKeys inSpace{{"ux", "fx"},
+                         {"uy", "fy"},
+                         {"uz", "fz"},
+                         {"rotation_x", "moment_x"},
+                         {"rotation_y", "moment_y"},
+                         {"rotation_z", "moment_z"}};
+
 void readMotion(const TableReader& table, bool axisymmetric, BodyDescription& tool) {
   using Kind = ConditionDescription::Kind;
-  constexpr const char* displacements[] = {"ux", "uy", "rotation"};
-  constexpr const char* forces[] = {"fx", "fy", "moment"};
-  const Point at = *tool.reference;
-  for (const int c : {0, 1, 2}) {
-    for (const char* key : {displacements[c], forces[c]})
+  const bool space = table.table().inSpace;
+  requireOfDimension(
+      table, {"uz", "rotation_x", "rotation_y", "rotation_z", "fz", "moment_x", "moment_y", "moment_z"},
+      {"rotation", "moment"});
+  const MotionKeys& motions = space ? inSpace : inPlane;
+  for (size_t c = 0; c < motions.size(); ++c) {
+    const auto [displacement, force] = motions[c];
+    for (const char* key : motions[c])
       if (axisymmetric && c != 1)
         table.rejectIfGiven({key}, "none beside plane = \"axisymmetric\": a ring moves along its axis alone");
-    if (table.has(displacements[c]))
-      table.rejectIfGiven({forces[c]}, std::string("either it or ") + displacements[c]);
-    const bool free = table.has(forces[c]);
-    const char* key = free ? forces[c] : displacements[c];
+    if (table.has(displacement)) table.rejectIfGiven({force}, std::string("either it or ") + displacement);
+    const bool free = table.has(force);
+    const char* key = free ? force : displacement;
     std::optional<Expression> value = table.datum(key);
     if (!value) value = constantExpression(0, table.message(tool.where, std::string(key) + " = 0"));
     if (value->value.degree > 0) table.reject(key, "a function of t alone: a tool moves as a whole");
-    tool.conditions.push_back({free ? Kind::traction : Kind::displacement, 0, "", c, *value,
-                               table.has(key) ? table.find(key)->where : tool.where, at});
+    ConditionDescription condition{
+        free ? Kind::traction : Kind::displacement,          0, "", static_cast<int>(c), *value,
+        table.has(key) ? table.find(key)->where : tool.where};
+    if (space)
+      condition.pointInSpace = *tool.reference;
+    else
+      condition.point = tool.reference->head<2>();
+    tool.conditions.push_back(std::move(condition));
   }
 }
 
@@ -109,7 +127,10 @@ BodyDescription readTool(const Node& node, const SceneDescription& scene, size_t
       if (key == "shape" || !keyAt("tool", key).besideWords.empty())
         table.rejectIfGiven({key}, "either mesh or a shape");
     readMeshSource(table, scene.path, tool);
-    if (tool.mesh.shape) table.reject("mesh", "a file, or shape and its keys in place of mesh");
+    if (tool.mesh.shape && !scene.inSpace())
+      table.reject("mesh", "a file, or shape and its keys in place of mesh");
+  } else if (scene.inSpace()) {
+    static_cast<void>(table.require("mesh", "a file, or a shape of a body in space"));
   } else {
     static_cast<void>(table.require("shape", "\"line\", \"disc\", \"rectangle\", \"polygon\" or \"spline\""));
     Outline outline = readOutline(table, axisymmetric);
@@ -120,7 +141,8 @@ BodyDescription readTool(const Node& node, const SceneDescription& scene, size_t
     tool.mesh.path = table.string("shape");
     tool.mesh.shape = MeshShape{std::move(outline)};
   }
-  tool.reference = table.point("at", at);
+  tool.reference =
+      scene.inSpace() ? table.spacePoint("at", SpacePoint(0, 0, 0)) : asSpacePoint(table.point("at", at));
   readMotion(table, axisymmetric, tool);
   return tool;
 }

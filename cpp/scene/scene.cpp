@@ -205,7 +205,6 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   Node& document = *read;
   for (const std::string& setting : settings) applyOverride(document, setting);
   scene.units = readUnits(document);
-  convertMeasures(document, scene.units);
   const TableReader root(document, "", "");
   scene.title = root.string("title", "");
   scene.dimension = root.integer("dimension");
@@ -214,6 +213,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   scene.plane = root.choice<Plane>("plane");
   scene.units.inSpace = scene.inSpace();
   scene.units.perDepth = !scene.inSpace() && scene.plane != Plane::axisymmetric;
+  convertMeasures(document, scene.units);
   scene.degree = root.integer("degree");
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
@@ -247,7 +247,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
 bool BodyDescription::turns() const {
   return isTool() && std::any_of(conditions.begin(), conditions.end(), [](const ConditionDescription& c) {
            const bool held = c.kind == ConditionDescription::Kind::displacement && c.value.constant;
-           return c.component == 2 && !(held && c.value.value(0, 0, 0) == 0);
+           return c.turns() && !(held && c.value.value(0, 0, 0) == 0);
          });
 }
 

@@ -74,6 +74,8 @@ struct ConditionDescription {
   [[nodiscard]] bool actsOn(int boundary) const {
     return !point && !pointInSpace && !onAxis && label == boundary;
   }
+  /// Of a motion of a tool: whether it is a rotation.
+  [[nodiscard]] bool turns() const { return component >= (pointInSpace ? 3 : 2); }
 };
 
 /// "label 3", "point [0.5, 1]" or "the axis".
@@ -115,10 +117,10 @@ struct BodyDescription {
   Volume volume = Volume::automatic;  ///< resolveScene decides an automatic one
   std::string volumeWhere;            ///< empty where the scene does not say it
   std::string volumeChoice;           ///< why it is that one, where the program has chosen it for a reason
-  /// Of a tool, which is rigid and has no material: the point about which it turns [m]. Its conditions are
-  /// those of its motions, all three at this point: along x, along y, and the rotation, as displacements [m],
-  /// [rad] or as forces [N/m], [N].
-  std::optional<Point> reference = {};
+  /// Of a tool, which is rigid and has no material: the point about which it turns, z = 0 in the plane [m].
+  /// Its conditions are those of its motions, all at this point: along x, along y, and the rotation, in space
+  /// along x, y, z and the rotations about these axes, as displacements [m], [rad] or as forces and moments.
+  std::optional<SpacePoint> reference = {};
   std::string where;
 
   /// Whether it is a tool that a datum may turn.

@@ -112,7 +112,7 @@ double surfaceCompliance(const SceneDescription& scene, const SideDescription& s
 
 double surfaceCompliance(const SceneDescription& scene, const SideDescription& side,
                          const TetrahedronMesh& mesh) {
-  return bodyCompliance(scene, side, mesh);
+  return scene.bodies[bodyIndex(scene, side.body)].isTool() ? 0 : bodyCompliance(scene, side, mesh);
 }
 
 namespace {

@@ -37,7 +37,6 @@ void requireOfDimension(const TableReader& table, const Keys& ofSpace, const Key
 
 void requireKnownInSpace(const TableReader& root, const SceneDescription& scene) {
   root.rejectIfGiven({"plane"}, "none with dimension = 3");
-  root.rejectIfGiven({"tool"}, std::string("none") + inThePlane);
   if (const Node* accuracy = root.find("accuracy"))
     TableReader(*accuracy, "accuracy", "accuracy")
         .rejectIfGiven({"quantity", "bound"}, std::string("none") + inThePlane);

@@ -43,7 +43,9 @@ bool takesDofs(const Body& body) {
 
 std::array<Body::Part, 3> partsOf(const Body& body, int node, const SpacePoint& vector) {
   if (!takesDofs(body)) return body.parts(node, vector);
-  return {Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}, Body::Part{}};
+  std::array<Body::Part, 3> parts;
+  for (int c = 0; c < body.dimension(); ++c) parts[c] = {body.dimension() * node + c, vector[c]};
+  return parts;
 }
 
 /// Entries of all conditions on one body as (condition, equation, value).

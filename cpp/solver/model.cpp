@@ -12,8 +12,8 @@ namespace mortier {
 
 bool holds(const Body& body, int node, const SpacePoint& direction) {
   constexpr double rounding = 1e-9;
-  if (body.rigid())
-    return (body.freeMotions().middleRows<2>(2 * node).transpose() * direction.head<2>()).isZero(rounding);
+  if (const Eigen::Index n = body.dimension(); body.rigid())
+    return (body.freeMotions().middleRows(n * node, n).transpose() * direction.head(n)).isZero(rounding);
   for (const auto& [equation, value] : body.parts(node, direction))
     if (equation >= 0 && std::abs(value) > rounding) return false;
   return true;
@@ -108,15 +108,40 @@ SpaceContactMesh spaceMeshOf(const Body& body) {
 
 }  // namespace
 
+namespace {
+
+bool isZero(const Datum& value, const SpacePoint& at) {
+  return value && value.constant() && value(at, 0) == 0;
+}
+
+/// Of a rigid body in space: the axes along which none of its motions moves a node.
+std::vector<SpacePoint> fixedAxes(const Body& body, int node) {
+  constexpr int n = 3;
+  const RigidMotion& rigid = *body.conditions().rigid;
+  const SpacePoint arm = body.placeOfNode(node) - rigid.at;
+  SpacePoint moves = SpacePoint::Zero();
+  for (int c = 0; c < n; ++c) {
+    if (!isZero(rigid.held[c], rigid.at)) moves += SpacePoint::Unit(c);
+    if (!isZero(rigid.held[n + c], rigid.at)) moves += SpacePoint::Unit(c).cross(arm).cwiseAbs();
+  }
+  std::vector<SpacePoint> fixed;
+  for (int c = 0; c < n; ++c)
+    if (moves[c] == 0) fixed.push_back(SpacePoint::Unit(c));
+  return fixed;
+}
+
+}  // namespace
+
 /// Directions in which the displacement of a node is zero at all times.
 std::vector<SpacePoint> fixedDirections(const Body& body, int node) {
+  if (body.rigid()) return fixedAxes(body, node);
   const std::vector<NodeSupport>& supports = body.supports().nodes();
   const auto found = std::ranges::lower_bound(supports, node, {}, &NodeSupport::node);
   std::vector<SpacePoint> fixed;
   if (found == supports.end() || found->node != node) return fixed;
   for (int i = 0; i < found->count; ++i) {
     const Datum& value = body.conditions().displacements[found->conditions[i]].value;
-    if (value.constant() && value(found->place, 0) == 0) fixed.push_back(found->directions[i]);
+    if (isZero(value, found->place)) fixed.push_back(found->directions[i]);
   }
   return fixed;
 }

@@ -80,7 +80,7 @@ double meanPressure(const State& state, const Quantity& quantity) {
 std::string Quantity::unit(const Units& units) const {
   switch (kind) {
     case Kind::displacement:
-      if (component == Component::rotation) return "rad";
+      if (component >= Component::rotationX) return "rad";
       [[fallthrough]];
     case Kind::contactLength:
       return units.length;
@@ -137,8 +137,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   const auto displacement = [&](const Quantity& quantity) {
     const int component = axisOf(quantity);
     const int dimension = model.bodies[quantity.body].dimension();
-    if (quantity.whole)  // the motion of a rigid body: x, y and the angle
-      return model.bodies[quantity.body].motionOf(state.bodies[quantity.body].displacement)[component];
+    if (const Body& body = model.bodies[quantity.body]; quantity.whole)
+      return body.motionOf(state.bodies[quantity.body].displacement)[motionNumber(quantity, body)];
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
       value += weight * state.bodies[quantity.body].displacement[dimension * node + component];

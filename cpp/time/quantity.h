@@ -37,7 +37,7 @@ struct Quantity {
     meanPressure   ///< of the contact pressure over a part of a side
   };
   /// Moments about axes; the plane has momentZ, counterclockwise. The rotation is of rigid bodies.
-  enum class Component { x, y, z, momentX, momentY, momentZ, rotation };
+  enum class Component { x, y, z, momentX, momentY, momentZ, rotationX, rotationY, rotationZ };
 
   std::string name;
   Kind kind = Kind::reaction;

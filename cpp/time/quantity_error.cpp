@@ -209,9 +209,7 @@ Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint
     case Kind::displacement:
       for (const auto& [node, weight] : quantity.mean)
         force[body.dimension() * node + axisOf(quantity)] += weight;
-      if (quantity.whole)
-        for (Eigen::Index dof = 0; dof < force.size(); ++dof)
-          force[dof] = body.motionOf(Vector::Unit(force.size(), dof))[axisOf(quantity)];
+      if (quantity.whole) force = body.sharesIn(motionNumber(quantity, body));
       return goal;
     default:  // the energy
       force = adjoint.forceOfEnergy(quantity.body);

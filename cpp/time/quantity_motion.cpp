@@ -29,24 +29,23 @@ Vector motionOfSupports(const Body& body, const Quantity& quantity, int conditio
 /// Of a body that does not strain: the part along the motions that are held.
 Vector rigidMotion(const Body& body, const Quantity& quantity) {
   const RigidMotion& rigid = *body.conditions().rigid;
-  const SpacePoint there = motionAt(quantity, {rigid.at.x(), rigid.at.y(), 0});
-  const double x = rigid.held[0] ? there.x() : 0;
-  const double y = rigid.held[1] ? there.y() : 0;
-  const double angle = rigid.held[2] && isMoment(quantity.component) ? 1 : 0;
-  Vector motion(body.dofs());
-  for (int node = 0; node < body.nodes(); ++node) {
-    const Point arm = body.placeOfNode(node).head<2>() - rigid.at;
-    motion.segment<2>(2 * node) << x - angle * arm.y(), y + angle * arm.x();
-  }
-  return motion;
+  Vector motion = Vector::Zero(static_cast<Eigen::Index>(rigid.held.size()));
+  motion.head(body.dimension()) = motionAt(quantity, rigid.at).head(body.dimension());
+  if (isMoment(quantity.component)) motion[body.rotationAbout(axisOf(quantity))] = 1;
+  for (Eigen::Index c = 0; c < motion.size(); ++c)
+    if (!rigid.held[c]) motion[c] = 0;
+  return body.displacementOf(motion);
 }
 
 }  // namespace
 
 int axisOf(const Quantity& quantity) {
-  using enum Quantity::Component;
-  const Quantity::Component along = quantity.component;
-  return along == x || along == momentX ? 0 : along == y || along == momentY ? 1 : 2;
+  return static_cast<int>(quantity.component) % 3;
+}
+
+int motionNumber(const Quantity& quantity, const Body& body) {
+  const int axis = axisOf(quantity);
+  return quantity.component >= Quantity::Component::rotationX ? body.rotationAbout(axis) : axis;
 }
 
 SpacePoint motionAt(const Quantity& quantity, const SpacePoint& x) {

@@ -8,6 +8,8 @@ namespace mortier {
 
 /// x, y or z, of a component or of the axis that it turns about, as a number.
 int axisOf(const Quantity& quantity);
+/// Which motion of a rigid body it is (Body::motionOf).
+int motionNumber(const Quantity& quantity, const Body& body);
 
 /// The component as a unit motion at a place: along an axis, or by a unit angle about a point.
 SpacePoint motionAt(const Quantity& quantity, const SpacePoint& x);

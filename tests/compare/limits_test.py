@@ -74,6 +74,11 @@ ROWS = {
 IN_SPACE = {"`elasticity` with axes": (AXES % ", shear13=300, shear23=300",),
             "curved contact lines": (),  # spheres: scenes/shells.toml
             '`kind = "tied"`': ('contact.kind="tied"',),
+            "rigid tools": ('tool=[{name="plate", mesh={shape="cuboid", lower=[-1, -1, 1], upper=[2, 2, 2], '
+                            'cells=1}, fz=-1}]',
+                            'body.upper.boundary=[{label="left", ux=0}, {label="front", uy=0}]',
+                            'contact=[{sides=[{body="upper", label="bottom"}, {body="lower", label="top"}]},'
+                            '{sides=[{body="upper", label="top"}, {body="plate", label="bottom"}]}]'),
             '`volume = "averaged"`': ("body.volume=averaged",)}
 COLUMNS = {
     "`accuracy.bound`": ("accuracy.bound=true",),

@@ -16,7 +16,9 @@ Datum datum(Function function) {
 
 /// A square about (1, 1), that turns about a point, a corner of itself if none is given.
 Body square(RigidMotion motion, const Point& at = {0, 0}) {
-  motion.at = at;
+  motion.at = asSpacePoint(at);
+  motion.held.resize(3);
+  motion.force.resize(3);
   Conditions conditions;
   conditions.rigid = std::move(motion);
   return {"tool", outlineMesh({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {1, 2, 3, 4}}), elasticMaterial({1, 0.3}),
@@ -171,6 +173,50 @@ TEST(RigidBody, whatDoesNotTurnMovesByItsDisplacement) {
   const Body body = square({{}, {}, {}}, pivot);
   const Vector u = standsFor(body, {0.1, 0.2, 0.3});
   EXPECT_EQ((body.moved(u) - u).norm(), 0);
+}
+
+TEST(RigidBody, inSpaceMovesAlongAndTurnsAboutThreeAxes) {
+  const SpacePoint at(0.3, -1, 2);
+  const SpacePoint by(0.1, 0.2, -0.3);
+  const SpacePoint angles(0.02, -0.05, 0.07);
+  const SpacePoint force(3, -5, 7);
+  const SpacePoint moment(0.4, 0.5, -0.6);
+  const auto constant = [](double value) { return datum([=](double, double, double) { return value; }); };
+  RigidMotion held{at, {}, std::vector<Datum>(6)};
+  RigidMotion pushed{at, std::vector<Datum>(6), {}};
+  for (int c = 0; c < 6; ++c) {
+    held.held.push_back(constant(c < 3 ? by[c] : angles[c - 3]));
+    pushed.force.push_back(constant(c < 3 ? force[c] : moment[c - 3]));
+  }
+  const auto cuboid = [](RigidMotion motion) {
+    Conditions conditions;
+    conditions.rigid = std::move(motion);
+    return Body("tool", cuboidMesh({{0, 0, 0}, {1, 2, 3}, {2, 1, 2}}), elasticMaterial({1, 0.3}, Plane::none),
+                std::move(conditions), 1);
+  };
+  const Body moved = cuboid(held);
+  Vector u = Vector::Zero(moved.dofs());
+  moved.prescribe(1, u);
+  for (int node = 0; node < moved.nodes(); ++node) {
+    const SpacePoint expected = by + angles.cross(moved.placeOfNode(node) - at);
+    EXPECT_NEAR((SpacePoint(u.segment<3>(3 * node)) - expected).norm(), 0, 1e-15);
+  }
+  EXPECT_NEAR((moved.motionOf(u).tail<3>() - angles).norm(), 0, 1e-14);
+  const Body free = cuboid(pushed);
+  EXPECT_EQ(free.freeDofs(), 6);
+  EXPECT_EQ(rigidModes(free).cols(), 6);
+  const Vector load = free.load(1);
+  SpacePoint sum = SpacePoint::Zero();
+  SpacePoint turning = SpacePoint::Zero();
+  for (int node = 0; node < free.nodes(); ++node) {
+    sum += load.segment<3>(3 * node);
+    turning += (free.placeOfNode(node) - at).cross(SpacePoint(load.segment<3>(3 * node)));
+  }
+  EXPECT_NEAR((sum - force).norm(), 0, 1e-13);
+  EXPECT_NEAR((turning - moment).norm(), 0, 1e-13);
+  EXPECT_NEAR((moved.heldForce(load).head<3>() - force).norm(), 0, 1e-13);
+  EXPECT_NEAR((moved.heldForce(load).tail<3>() - moment).norm(), 0, 1e-13);
+  EXPECT_NEAR((moved.sharesIn(4).dot(u) - angles.y()), 0, 1e-14);
 }
 
 }  // namespace mortier::rigid_body_test

@@ -71,6 +71,8 @@ function nodalValues(run, step, b, name) {  // by vertex and middle; not a numbe
       const [x, y, z] = ["ux", "uy", "uz"].map(each => nodalValues(run, step, b, each));
       return x.map((each, i) => Math.hypot(each, y[i], z[i]));
     }
+    if (body.rigid && name !== "region" && !fieldOf(run, name).contact)  // tools have no stress
+      return new Float64Array(body.vertices + body.middles).fill(NaN);
     if (name === "von_mises")
       return withMiddles(body, vonMisesOf(COMPONENTS.map(c => real(fields[`s${c}`]))));
     if (!fieldOf(run, name).contact) return withMiddles(body, real(fields[name]));
