@@ -19,7 +19,7 @@ import columns
 import solids
 import tables
 import three
-from coding import Block, scaled
+from coding import block, packed
 from contact_line import boundary_edges
 from ending import shown
 from files import MARK
@@ -48,54 +48,30 @@ def digits_of(name, many):
     return 3 if name == "error" else 1 if name == "viscoplastic" else (5 if name[0] == "e" else 6) - many
 
 
-def von_mises_of(integers, exponents):
-    """From the components as the page has them, in the order of operations of the page."""
-    s = [scaled(q, e) for q, e in zip(integers, exponents)]
-    s33 = s[3] if len(s) > 3 else np.zeros(len(s[0]))
-    square = s[0] * s[0] + s[1] * s[1] - s[0] * s[1] + s33 * (s33 - s[0] - s[1]) + 3 * s[2] * s[2]
-    return np.sqrt(np.maximum(square, 0))
-
-
 def mesh_block(body):
     """Points, corners, region of each triangle; of the boundary edges both ends, their triangle and, where
     triangles are quadratic, the vertex in the middle (else the first end again)."""
-    block = Block()
-    for c in (0, 1):
-        block.add(body.points[:, c], 7)
     first = body.triangles[:, 0]
     edges, owner, side = boundary_edges(body.triangles, owners=True)
     middle = edges[:, 0] if body.elements is None else body.elements[owner, 3 + side]
-    for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0],
-                    edges[:, 1], owner, middle - edges[:, 0]):
-        block.add_integers(numbers)
-    block.add_integers(body.cells.get("region", np.zeros(len(body.triangles))))
-    return block, len(edges)
+    integers = (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0], edges[:, 1],
+                owner, middle - edges[:, 0], body.cells.get("region", np.zeros(len(body.triangles))))
+    return block([*((x, 7) for x in body.points.T), *((each, None) for each in integers)])[0], len(edges)
 
 
-def step_block(result, run, fields, earlier, many):
-    """The arrays of every body: ux, uy, the stress, von Mises stress predicted from it,
-    and the rest by triangle."""
-    block = Block(earlier)
+def step_block(result, run, fields, later, many):
+    """The arrays of every body, by vertex or by triangle, and of each field its ends."""
     values = {name: result.values(run, fields[name]) for name in order_of(fields)}
-    for kind in (("ux", "uy"), ("s11", "s22", "s12", "s33", "von_mises"), ("e11", "e22", "e12", "e33")):
+    for kind in (("ux", "uy"), ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")):
         without_noise({name: values[name] for name in kind if name in values}, values)
-    for body in run.bodies:
-        stress = []
-        for name in order_of(fields):
-            given = None
-            if name == "von_mises":
-                given = lambda e, stress=stress: np.floor(
-                    scaled(von_mises_of(*zip(*stress)), -e) + 0.5).astype(np.int64)
-            found = block.add(values[name][body], digits_of(name, many), given)
-            if name in ("s11", "s22", "s12", "s33"):
-                stress.append(found)
     ranges = {}
-    for name in [*order_of(fields), "u", *(["region"] if "region" in fields else [])]:
+    for name in fields:
         of_bodies = values[name] if name in values else result.values(run, fields[name])
         numbers = np.concatenate(list(of_bodies.values()))
         top = top_of(fields[name], run.bodies, of_bodies)
         ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
-    return block, ranges
+    return (*block([(values[name][body], digits_of(name, many)) for body in run.bodies
+                    for name in order_of(fields)], later), ranges)
 
 
 def without_noise(kind, values):
@@ -109,10 +85,7 @@ def without_noise(kind, values):
 
 def order_of(fields):
     """Of the arrays in a step; what the page can compute from others, and regions, are not among them."""
-    names = [name for name in fields if name not in ("u", "region", "von_mises")]
-    at = max(i for i, name in enumerate(names) if name in ("s11", "s22", "s12", "s33")) + 1
-    return ["ux", "uy", *[name for name in names[:at] if name not in ("ux", "uy")], "von_mises",
-            *[name for name in names[at:] if name not in ("ux", "uy")]]
+    return [name for name in fields if name not in ("u", "region", "von_mises")]
 
 
 def numbers(values, digits=6):
@@ -139,15 +112,14 @@ def plane_data(result, share):
     fields, size = result.fields(first), extent(first.bodies.values())
     bodies = []
     for name, body in first.bodies.items():
-        block, edges = mesh_block(body)
+        mesh, edges = mesh_block(body)
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
-                       "edges": edges, "mesh": block.json(), "rigid": body.rigid})
-    steps, lines, earlier, ranges, recovered = [], [], None, [], {}
-    for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
+                       "edges": edges, "mesh": mesh, "rigid": body.rigid})
+    steps, lines, later, ranges, recovered = [], [], None, [], {}
+    for step, time in reversed(kept):  # the page shows the last one first
         run = result.at(step)
-        block, of_step = step_block(result, run, fields, earlier, len(kept) * triangles > MANY)
-        earlier = block
-        steps.append({"step": step, "time": time, **block.json()})
+        arrays, later, of_step = step_block(result, run, fields, later, len(kept) * triangles > MANY)
+        steps.append({"step": step, "time": time, **arrays})
         ranges.append(of_step)
         for k, line in enumerate(result.lines(run)):
             if k == len(lines):
@@ -231,7 +203,7 @@ def page(results):
     stills = f'<div id="stills">{"".join(run.pop("still") for run in runs)}</div>\n' if space else ""
     data = {"space": space, "runs": runs,
             "colours": {"plain": VIRIDIS, "signed": RED_BLUE, "contact": YELLOW_RED},
-            "three": three.packed(library) if library else None}
+            "three": packed(library.encode()) if library else None}
     titles = list(dict.fromkeys(run["title"] for run in data["runs"]))
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it

@@ -11,7 +11,7 @@ import html
 import numpy as np
 
 import contact_surface
-from coding import Block
+from coding import block
 from contact_line import keys_of
 from contact_surface import surface_of
 from results import von_mises
@@ -81,23 +81,19 @@ class Mesh:
         return values[self.middles] - self.at_nodes(values)[self.ends].mean(1)
 
     def block(self):
-        block = Block()
-        for c in range(3):
-            block.add(self.at_nodes(self.body.points[:, c]), 5)
         size = np.ptp(self.body.points, axis=0).max()
-        for c in range(3):
-            missed = self.missed(self.body.points[:, c])
-            block.add(np.where(np.abs(missed) > NOISE * size, missed, 0), 3)
+        missed = [self.missed(x) for x in self.body.points.T]
         first, last = self.triangles[:, 0], self.tetrahedra
-        for numbers in (first, self.triangles[:, 1] - first, self.triangles[:, 2] - first, self.marks,
-                        last[:, 0], *np.diff(last, axis=1).T, self.region):
-            block.add_integers(numbers)
-        return block
+        integers = (first, self.triangles[:, 1] - first, self.triangles[:, 2] - first, self.marks,
+                    last[:, 0], *np.diff(last, axis=1).T, self.region)
+        return block([*((self.at_nodes(x), 5) for x in self.body.points.T),
+                      *((np.where(np.abs(each) > NOISE * size, each, 0), 3) for each in missed),
+                      *((each, None) for each in integers)])[0]
 
     def json(self, name):
         return {"name": name, "vertices": len(self.nodes), "middles": len(self.middles),
                 "triangles": len(self.triangles), "tetrahedra": len(self.tetrahedra),
-                "mesh": self.block().json()}
+                "mesh": self.block()}
 
 
 def along_curve(points):
@@ -134,9 +130,8 @@ def digits_of(name, many):
     return 4 if many else 5
 
 
-def step_block(meshes, fields, touching, earlier, many):
+def step_block(meshes, fields, touching, later, many):
     """The arrays of every body in the order of `order_of`; and the ends of all fields."""
-    block = Block(earlier)
     values = {name: values_of(mesh, touching[name], fields) for name, mesh in meshes.items()}
     for kind in ([f"s{c}" for c in IN_SPACE], [f"e{c}" for c in IN_SPACE], ["ux", "uy", "uz"]):
         largest = {name: max(np.abs(each[name]).max(initial=0) for each in values.values()) for name in kind}
@@ -144,10 +139,8 @@ def step_block(meshes, fields, touching, earlier, many):
             if own < NOISE * max(largest.values()):
                 for each in values.values():
                     each[name] = np.zeros_like(each[name])
-    for of_body in values.values():
-        for name in order_of(fields):
-            block.add(of_body[name], digits_of(name, many))
-    return block, ranges_of(meshes, fields, values)
+    return (*block([(of_body[name], digits_of(name, many)) for of_body in values.values()
+                    for name in order_of(fields)], later), ranges_of(meshes, fields, values))
 
 
 def order_of(fields):
@@ -196,19 +189,16 @@ def run_data(result, share):
         body = last.bodies[name]
         gap = mesh.at_nodes(body.contact["gap"]) if "gap" in body.contact else np.zeros(0)
         touching[name] = np.flatnonzero(np.isfinite(gap))
-        described = mesh.json(name)
-        block = Block()
-        block.add_integers(touching[name])
-        bodies.append({**described, "rigid": body.rigid, "touching": len(touching[name]),
-                       "contact": block.json()})
-    steps, ranges, earlier = [], [], None
-    for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
+        bodies.append({**mesh.json(name), "rigid": body.rigid, "touching": len(touching[name]),
+                       "contact": block([(touching[name], None)])[0]})
+    steps, ranges, later = [], [], None
+    for step, time in reversed(kept):  # the page shows the last one first
         run = result.at(step)
         contact_surface.attach(run, result.interfaces)
         for name, mesh in meshes.items():
             mesh.body = run.bodies[name]
-        earlier, ends = step_block(meshes, fields, touching, earlier, of_step > MANY)
-        steps.append({"step": step, "time": time, **earlier.json()})
+        arrays, later, ends = step_block(meshes, fields, touching, later, of_step > MANY)
+        steps.append({"step": step, "time": time, **arrays})
         ranges.append(ends)
     listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": True, "signed": field.signed,
                "contact": field.of_contact} for name, field in fields.items()]

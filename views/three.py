@@ -1,8 +1,5 @@
 """three.js as Debian's package libjs-three has it, to be part of a page."""
-import base64
 from pathlib import Path
-
-from coding import deflated
 
 FOLDER = Path("/usr/share/javascript/three")
 FILES = ("three.min.js", "examples/js/controls/OrbitControls.js")
@@ -34,7 +31,3 @@ def program():
         return "\n".join((FOLDER / name).read_text(encoding="utf-8") for name in FILES)
     except (OSError, UnicodeDecodeError):
         return None
-
-
-def packed(text):
-    return base64.b64encode(deflated(text.encode())).decode()

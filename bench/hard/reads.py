@@ -49,6 +49,19 @@ def peak(run):
     return float(pressures(run)[1][np.argmin(from_axis(run))])
 
 
+def ball_peak(modulus, radius):
+    """The largest pressure over Hertz's of the same force, of a ball about its axis."""
+    def read(run):
+        a = (0.75 * total(run) / modulus * radius) ** (1 / 3)
+        return float(pressures(run)[1].max() * math.pi * a**2 / (1.5 * total(run)))
+    return read
+
+
+def receding(run):
+    """The pressure under the load, over the load, half of which is modelled."""
+    return peak(run) / (2 * total(run))
+
+
 def off_hertz(modulus, radius, symmetric=False, up_to=0.55):
     """The largest deviation of a nodal pressure from Hertz's of the same force; symmetric: of one half."""
     def read(run):

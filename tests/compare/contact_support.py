@@ -1,5 +1,6 @@
-"""What the harnesses of contact share: parts of scenes, a run and what it gave, a command over scenes."""
+"""What the harnesses share: parts of scenes, a run and what it gave, a command over scenes."""
 import argparse
+import contextlib
 import csv
 import json
 import re
@@ -8,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,6 +24,7 @@ from results import read_vtu  # noqa: E402
 UNRESOLVED = re.compile(r"cells on the half width|contact[^\n]*(unresolved|not resolved)")
 PLANE = 'plane = "strain"\n'
 HELD = "ux = 0, uy = 0"
+here = threading.local()  # of a scene of a command: the folder in which its files stay
 
 
 def vector(point):
@@ -153,11 +156,28 @@ def table(path):
         return list(csv.DictReader(file))
 
 
+@contextlib.contextmanager
+def new_folder():
+    if keep := getattr(here, "keep", None):
+        keep.mkdir(parents=True, exist_ok=True)
+        yield Path(tempfile.mkdtemp(dir=keep))
+    else:
+        with tempfile.TemporaryDirectory() as name:
+            yield Path(name)
+
+
+def meshed(program, meshes):
+    """Files of meshes, of name -> words after `mortier mesh`."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in meshes.items():
+            subprocess.run([program, "mesh", *words, name], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        return {name: (Path(folder) / name).read_text() for name in meshes}
+
+
 def solve(program, text, *options, files=None, fields=False, patience=120, command="run"):
     """A run of a scene in a folder of its own; with options of the command line. patience: processor time,
     which does not depend on what else runs."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+    with new_folder() as folder:
         for file, content in {**(files or {}), "scene.toml": text}.items():
             (folder / file).write_text(content)
         out = ["--out", "out"] if command == "run" else []
@@ -185,30 +205,43 @@ def solve(program, text, *options, files=None, fields=False, patience=120, comma
         return run
 
 
-def command(text, examined, count, names=None):
-    """The command of a harness: examined(program, seed) gives what the scene shows and a list of faults.
-    With names, the scenes are these and --only picks one. Exit code 1 where a scene has a fault."""
+def command(text, examined, count, names=None, told=None, **flags):
+    """The command of a harness: examined(program, seed) gives what the scene shows, a list of faults, and for
+    told(a list of it of all scenes), which prints more, anything else. With names, the scenes are these and
+    --only picks one. flags: name -> help, of switches that examined takes as well. Exit code 1 where a scene
+    has a fault."""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=count)
     parser.add_argument("--first", type=int, default=1, help="the first scene")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
     parser.add_argument("--mortier", default=str(ROOT / "build" / "mortier"))
     parser.add_argument("--all", action="store_true", help="a line also for scenes without a fault")
+    parser.add_argument("--keep", type=Path, metavar="FOLDER", help="scenes and results stay there")
     if names:
         parser.add_argument("--only", choices=names)
+    for name, words in flags.items():
+        parser.add_argument(f"--{name}", action="store_true", help=words)
     arguments = parser.parse_args()
     program = str(Path(arguments.mortier).resolve())
+    chosen = {name: getattr(arguments, name) for name in flags}
     if names:
         scenes = [arguments.only] if arguments.only else names[arguments.first - 1:][:arguments.count]
     else:
         scenes = range(arguments.first, arguments.first + arguments.count)
-    failed = []
+
+    def examine(scene):
+        here.keep = arguments.keep and arguments.keep / str(scene)
+        return examined(program, scene, **chosen)
+    failed, more = [], []
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        for scene, (shown, faults) in zip(scenes, pool.map(lambda scene: examined(program, scene), scenes)):
+        for scene, (shown, faults, *rest) in zip(scenes, pool.map(examine, scenes)):
+            more += rest
             if faults:
                 failed.append(scene)
             if faults or arguments.all:
-                more = [f"and {len(faults) - 6} more"] if len(faults) > 6 else []
-                print(f"{scene}: {shown}: {'; '.join(faults[:6] + more) or 'right'}", flush=True)
+                left = [f"and {len(faults) - 6} more"] if len(faults) > 6 else []
+                print(f"{scene}: {shown}: {'; '.join(faults[:6] + left) or 'right'}", flush=True)
+    if told:
+        told(more)
     print(f"{len(scenes)} scenes, {len(failed)} with a fault: {', '.join(map(str, failed)) or 'none'}")
     return 1 if failed else 0

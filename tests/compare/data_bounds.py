@@ -6,30 +6,20 @@ on triangles; `natural` ones are waves, parabolas, patches, gaps of those shapes
 stresses that vary; `hostile` ones have narrow peaks, waves shorter than a side, and jumps.
 
 No bound may be below the distance from the finer solution less the bound of that, and the enclosures of both
-of every quantity have to meet. Prints the median of bound over distance of each kind.
+of every quantity have to meet. Prints the median of bound over distance.
 
-Usage: data_bounds.py [--linear 100] [--natural 100] [--hostile 20] [--seed 0] [--finer 8] [--jobs 2]
-Scene N of a kind is the same on every machine; --show KIND N prints it.
+    tests/compare/data_bounds.py [--linear | --hostile] [--count 100] [--first SEED] [--jobs N]
+                                 [--mortier PROGRAM]
 """
-import argparse
-import concurrent.futures
-import json
-import os
 import random
 import statistics
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
-PROGRAM = str(Path(os.environ.get("MORTIER", ROOT / "build" / "mortier")).resolve())
-sys.path.insert(0, str(ROOT / "compare"))
-import results  # noqa: E402
+from contact_support import command, solve
 
-KINDS = ("linear", "natural", "hostile")
+FINER = 8
 
 
 def shape(rng, kind, at="x"):
@@ -100,18 +90,6 @@ def scene(kind, number, finer=1):
     return text, {name: (plane, young[i], poisson[i]) for i, name in enumerate(("upper", "lower"))}
 
 
-def run(text, folder):
-    (folder / "scene.toml").write_text(text)
-    done = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet", "--out", "out", "--threads", "1"],
-                          cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=600)
-    if done.returncode == 3:
-        raise RuntimeError("refused: loads pull the bodies apart")
-    if done.returncode != 0:
-        raise RuntimeError(f"exit {done.returncode}: {done.stdout.strip()[-300:]}")
-    return results.read_mortier(folder / "out"), json.loads((folder / "out" / "summary.json").read_text())
-
-
 def energy(stress, plane, young, poisson):
     """s : E^-1 s by triangles, of the components in the plane."""
     if plane == "strain":
@@ -142,77 +120,40 @@ def distance(coarse, fine, materials):
     return square**0.5
 
 
-def measure(kind, number, finer):
-    """(kind, number, bound over distance or None, what went wrong, quantities)"""
+def measured(program, kind, number, finer=FINER):
+    """What is wrong, bound over distance or None where the bound is refused, and how many quantities."""
     text, materials = scene(kind, number)
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            coarse, summary = run(text, Path(folder))
-            bound = summary["accuracy"]["bound"]
-            if "reason" in bound:
-                return kind, number, None, "refused: " + bound["reason"], 0
-            fine, reference = run(scene(kind, number, finer)[0], Path(folder))
-        off = distance(coarse, fine, materials)
-        own = reference["accuracy"]["bound"]
-        faults = []
-        if bound["absolute"] < off - own.get("absolute", float("inf")):
-            faults.append(f"bound {bound['absolute']:.4g} below {off:.4g} - {own['absolute']:.4g}")
-        enclosed = 0
-        for name, each in summary["quantities"].items():
-            other = reference["quantities"][name]["bound"]
-            if each["bound"]["error"] is None or other["error"] is None:
-                continue
-            enclosed += 1
-            rounding = 1e-9 * abs(each["value"])
-            ours = each["bound"]
-            if max(ours["lower"] - other["upper"], other["lower"] - ours["upper"]) > rounding:
-                faults.append(f"{name}: {each['bound']} and {other} do not meet")
-        return kind, number, bound["absolute"] / off, "; ".join(faults), enclosed
-    except (RuntimeError, subprocess.TimeoutExpired, results.ResultError) as error:
-        return kind, number, None, str(error), 0
+    coarse, fine = (solve(program, each, "--quiet", "--threads", "1", fields=True, patience=600)
+                    for each in (text, scene(kind, number, finer)[0]))
+    if coarse.code != 0 or fine.code != 0:  # 3: loads pull the bodies apart
+        return [run.end for run in (coarse, fine) if run.code not in (0, 3)], None, 0
+    bound, own = (run.summary["accuracy"]["bound"] for run in (coarse, fine))
+    if "reason" in bound:
+        return [], None, 0
+    faults, off, enclosed = [], distance(coarse, fine, materials), 0
+    if bound["absolute"] < off - own.get("absolute", float("inf")):
+        faults.append(f"bound {bound['absolute']:.4g} below {off:.4g} - {own['absolute']:.4g}")
+    for name, each in coarse.summary["quantities"].items():
+        ours, other = each["bound"], fine.summary["quantities"][name]["bound"]
+        if ours["error"] is None or other["error"] is None:
+            continue
+        enclosed += 1
+        if max(ours["lower"] - other["upper"], other["lower"] - ours["upper"]) > 1e-9 * abs(each["value"]):
+            faults.append(f"{name}: {ours} and {other} do not meet")
+    return faults, bound["absolute"] / off, enclosed
 
 
-def survey(counts, seed, finer, jobs):
-    """kind -> ratios; faults; refusals; how many quantities."""
-    ratios, faults, refused, quantities = {kind: [] for kind in KINDS}, [], [], 0
-    work = [(kind, number) for kind in KINDS for number in range(seed, seed + counts[kind])]
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for kind, number, ratio, wrong, enclosed in pool.map(lambda each: measure(*each, finer), work):
-            quantities += enclosed
-            if ratio is not None:
-                ratios[kind].append(ratio)
-            if wrong.startswith("refused"):
-                refused.append(f"{kind} {number}: {wrong}")
-            elif wrong:
-                faults.append(f"{kind} {number}: {wrong}")
-    return ratios, faults, refused, quantities
+def examined(program, seed, linear=False, hostile=False):
+    kind = "linear" if linear else "hostile" if hostile else "natural"
+    faults, ratio, enclosed = measured(program, kind, seed)
+    return f"{kind}, bound over distance {ratio}, {enclosed} quantities", faults, ratio
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    for kind, count in zip(KINDS, (100, 100, 20)):
-        parser.add_argument("--" + kind, type=int, default=count)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--finer", type=int, default=8)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--show", nargs=2)
-    options = parser.parse_args()
-    if options.show:
-        print(scene(options.show[0], int(options.show[1]))[0])
-        return 0
-    counts = {kind: getattr(options, kind) for kind in KINDS}
-    ratios, faults, refused, quantities = survey(counts, options.seed, options.finer, options.jobs)
-    for kind in KINDS:
-        if ratios[kind]:
-            print(f"{kind}: {len(ratios[kind])} of {counts[kind]} bounded, bound over distance: least "
-                  f"{min(ratios[kind]):.3f}, median {statistics.median(ratios[kind]):.2f}, largest "
-                  f"{max(ratios[kind]):.1f}")
-    print(f"{quantities} quantities")
-    for line in refused + faults:
-        print(line)
-    print(f"{len(refused)} refused, {len(faults)} faults")
-    return 1 if faults else 0
+def tell(ratios):
+    bounded = [each for each in ratios if each is not None]
+    print(f"{len(bounded)} of {len(ratios)} bounded, bound over distance: least {min(bounded):.3f}, median "
+          f"{statistics.median(bounded):.2f}, largest {max(bounded):.1f}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 100, told=tell, linear="linear data", hostile="hostile data"))

@@ -3,7 +3,7 @@ import statistics
 import unittest
 
 import data_bounds
-from support import InFolder
+from support import PROGRAM, InFolder
 
 BLOCKS = """\
 [[body]]
@@ -86,15 +86,19 @@ class DataBounds(InFolder):
             self.assertIn(reason, bound["reason"])
 
     def test_random_scenes(self):
-        counts = {"linear": 6, "natural": 12, "hostile": 4}
-        ratios, faults, refused, quantities = data_bounds.survey(counts, 0, 4, 2)
-        print(refused)
-        self.assertEqual(faults, [])
-        self.assertGreater(quantities, 40)
-        for kind in counts:
-            print(kind, statistics.median(ratios[kind]))
-            self.assertGreater(len(ratios[kind]), counts[kind] // 2)
-            self.assertLess(statistics.median(ratios[kind]), 4 if kind == "hostile" else 1.6)
+        enclosed = 0
+        for kind, count, most in (("linear", 6, 1.6), ("natural", 12, 1.6), ("hostile", 4, 4)):
+            ratios = []
+            for number in range(count):
+                with self.subTest(kind=kind, number=number):
+                    faults, ratio, quantities = data_bounds.measured(PROGRAM, kind, number, 4)
+                    self.assertEqual(faults, [])
+                    enclosed += quantities
+                    ratios += [] if ratio is None else [ratio]
+            print(kind, statistics.median(ratios))
+            self.assertGreater(len(ratios), count // 2)
+            self.assertLess(statistics.median(ratios), most)
+        self.assertGreater(enclosed, 40)
 
 
 if __name__ == "__main__":

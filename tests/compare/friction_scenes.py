@@ -3,21 +3,15 @@
 
 Stiffness ratios to 1e6, mu from 0 to 3, degree 1 and 2, all couplings, either side nonmortar; loads that
 press, draw, turn round and lift. Exit code 0 is asked for, or 3 where contact alone holds a body. Scenes that
-end with 1 are run again with `solver.linear = "suitesparse"` and with the sides exchanged: none may be solved
-so.
+end otherwise are run again with `solver.linear = "suitesparse"` and with the sides exchanged.
 
-Usage: friction_scenes.py [--count 100] [--seed 0] [--patience 60] [--jobs 1] [--mortier build/mortier]
-Scene N is the same on every machine: friction_scenes.py --seed N --count 1 --show prints it.
+    tests/compare/friction_scenes.py [--count 100] [--first SEED] [--jobs N] [--mortier PROGRAM]
 """
-import argparse
-import collections
-import concurrent.futures
 import math
 import random
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
+
+from contact_support import command, solve
 
 OTHERS = {"suitesparse": ["--set", "solver.linear=suitesparse"], "exchanged": []}
 
@@ -154,55 +148,15 @@ class Scene:
         self.contacts = [('{ body = "upper", label = 1 }', '{ body = "lower", label = 3 }')]
 
 
-def run(program, text, options, patience):
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "scene.toml"
-        path.write_text(text)
-        try:
-            done = subprocess.run([program, "run", str(path), "--out", str(Path(folder) / "out"), *options],
-                                  capture_output=True, text=True, timeout=patience)
-        except subprocess.TimeoutExpired:
-            return "patience", "no end"
-        lines = [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning")]
-        return done.returncode, lines[-1] if lines else ""
-
-
-def outcome(program, seed, patience):
-    """Exit code, what was told, and which other way solves the scene."""
+def examined(program, seed):
     scene = Scene(seed)
-    code, told = run(program, scene.scene(), [], patience)
-    solved = []
-    if code not in (0, 3):
-        solved = [name for name, options in OTHERS.items()
-                  if run(program, scene.scene(name == "exchanged"), options, patience)[0] == 0]
-    return {"seed": seed, "kind": scene.kind, "code": code, "told": told, "solved by": solved}
-
-
-def explore(program, first, count, patience, jobs=1):
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        return list(pool.map(lambda seed: outcome(program, seed, patience), range(first, first + count)))
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--patience", type=float, default=60)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--show", action="store_true")
-    parser.add_argument("--mortier", default="build/mortier")
-    asked = parser.parse_args()
-    if asked.show:
-        print(Scene(asked.seed).scene(), end="")
-        return 0
-    results = explore(asked.mortier, asked.seed, asked.count, asked.patience, asked.jobs)
-    for result in results:
-        if result["code"] not in (0, 3):
-            print(f"scene {result['seed']} ({result['kind']}): {result['code']}, solved by "
-                  f"{result['solved by'] or 'none'}: {result['told'][:160]}")
-    print(dict(collections.Counter((result["kind"], result["code"]) for result in results)))
-    return 1 if any(result["solved by"] for result in results) else 0
+    run = solve(program, scene.scene(), patience=60)
+    if run.code in (0, 3):
+        return scene.kind, []
+    solved = [name for name, options in OTHERS.items()
+              if solve(program, scene.scene(name == "exchanged"), *options, patience=60).code == 0]
+    return scene.kind, [f"{run.end}, solved by {' and '.join(solved) or 'none'}"]
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 100))

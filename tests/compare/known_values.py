@@ -6,22 +6,16 @@ quadratic elements. For each value: the true error over "+-", "not known" with t
 rounding below 1e-7 of the largest value of its unit; a value with a "+-" of rounding that is off by rounding
 is right. Works and heat, which are sums over steps, are not asked for.
 
-    tests/compare/known_values.py [--count 300] [--first SEED] [--jobs N] [--only KIND] [--values FILE]
-                                  [--mortier PROGRAM]
+    tests/compare/known_values.py [--count 300] [--first SEED] [--jobs N] [--mortier PROGRAM]
 
---values keeps the values that fine meshes gave, so that a second run computes them no more. Exit code 1 where
-the shares that docs/measurements.md names are not reached.
+The shares that docs/measurements.md names are told at the end.
 """
-import argparse
-import json
 import math
 import sys
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 
-from contact_support import ROOT, solve
+from contact_support import command, solve
 from known_scenes import scene_of
 
 ROUNDING = 1e-7
@@ -63,7 +57,8 @@ class Found:
         return over if over > 1 else min(1.0, max(over, self.doubt / self.error))
 
 
-def examined(program, seed, values):
+def values_of(program, seed):
+    """Of a scene, and why there are none."""
     kind, scene = scene_of(seed)
     options = ["--accuracy", str(scene.accuracy), "--max-unknowns", "20000"] if scene.accuracy else []
     run = solve(program, scene.text(scene.degree, 1), *options)
@@ -71,20 +66,18 @@ def examined(program, seed, values):
     if run.code not in (0, 1) or not run.summary.get("quantities"):
         return [], f"{seed} {shown}: {run.end}"
     quantities = run.summary["quantities"]
-    exact = dict(scene.known)
+    exact, doubt = dict(scene.known), dict.fromkeys(scene.known, 0)
     if any(name not in exact for name in quantities):
-        if str(seed) not in values:
-            fine = solve(program, scene.text(2, scene.finer), patience=300)
-            if fine.code != 0:
-                return [], f"{seed} {shown}: on the fine mesh: {fine.end}"
-            values[str(seed)] = {name: (each["value"], each["estimated_error"] or 0)
-                                 for name, each in fine.summary["quantities"].items()}
-        exact = {name: value for name, (value, _) in values[str(seed)].items()} | exact
+        fine = solve(program, scene.text(2, scene.finer), patience=300)
+        if fine.code != 0:
+            return [], f"{seed} {shown}: on the fine mesh: {fine.end}"
+        for name, each in fine.summary["quantities"].items():
+            exact.setdefault(name, each["value"])
+            doubt.setdefault(name, each["estimated_error"] or 0)
     largest = {}
     unit = lambda each: {"N": "N/m", "N m": "N"}.get(each["unit"], each["unit"])  # moments are of forces
     for name, each in quantities.items():
         largest[unit(each)] = max(largest.get(unit(each), 0), abs(exact[name]), abs(each["value"]))
-    doubt = {name: 0 if name in scene.known else values[str(seed)][name][1] for name in quantities}
     return [Found(seed, kind, name, each["value"], exact[name], largest[unit(each)], each["estimated_error"],
                   each.get("no_estimate", ""), run.summary["accuracy"]["energy_error"], shown, doubt[name])
             for name, each in quantities.items()], ""
@@ -125,39 +118,17 @@ def violations(found):
     return [line(value) for value in found if value.error is not None and not 0.01 < value.over <= 1]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=300)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--values", type=Path)
-    parser.add_argument("--mortier", default=str(ROOT / "build" / "mortier"))
-    parser.add_argument("--all", action="store_true", help="a line for each value")
-    options = parser.parse_args()
-    values = json.loads(options.values.read_text()) if options.values and options.values.exists() else {}
-    seeds = [seed for seed in range(options.first, options.first + options.count)
-             if options.only in scene_of(seed)[0]]
-    program = str(Path(options.mortier).resolve())
-    found, failed = [], 0
-    with ThreadPoolExecutor(options.jobs) as pool:
-        for each, message in pool.map(lambda seed: examined(program, seed, values), seeds):
-            found += each
-            if message:
-                failed += 1
-                print(message, flush=True)
-            for text in map(line, each) if options.all else violations(each):
-                print(text, flush=True)
-    if options.values:
-        options.values.write_text(json.dumps(values, indent=0))
-    print()
+def examined(program, seed):
+    found, message = values_of(program, seed)
+    return scene_of(seed)[0], ([message] if message else []) + violations(found), found
+
+
+def tell(results):
+    found = [each for of_scene in results for each in of_scene]
     for reason, count in Counter(e.reason for e in found if e.error is None).most_common():
         print(f"not known {count}: {reason}")
-    checks = judged(found)
-    print(*(text + ("" if right else ": MISSED") for text, right in checks), sep="\n")
-    return 0 if all(right for _, right in checks) and not failed else 1
+    print(*(text + ("" if right else ": MISSED") for text, right in judged(found)), sep="\n")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 300, told=tell))

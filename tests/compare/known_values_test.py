@@ -10,7 +10,7 @@ class KnownValues(unittest.TestCase):
     def test_plus_minus_holds_what_it_says(self):
         found = []
         for seed in range(2 * len(known_scenes.KINDS)):
-            values, message = known_values.examined(PROGRAM, seed, {})
+            values, message = known_values.values_of(PROGRAM, seed)
             self.assertEqual(message, "")
             found += values
         for text, right in known_values.judged(found, least_not_wide=0.95):

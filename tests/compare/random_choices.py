@@ -12,14 +12,12 @@ SCHEMES = ("backward-euler", "backward-euler", "sdirk2", "crank-nicolson", "sdir
 
 
 class WideScene:
-    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes.
+    """Scene number `seed`: its text and its meshes (as arguments of `mortier mesh`).
 
     The same problem in other words, for random_equalities.py: with stresses, lengths and times multiplied
     by the factors `units`; with x and y turned by a right angle (the meshes have to be turned, too); with
     the bodies in the reverse order."""
 
-    KINDS = ("plane", "degree", "scheme", "law", "friction", "temperature", "round", "gap", "accuracy",
-             "bodies")
     PLANES = ("stress", "strain", "axisymmetric")
     REFINED = 0.1  # of all scenes
 
@@ -46,12 +44,7 @@ class WideScene:
         if exchanged:
             self.exchange_bodies()
         self.make_time()
-        self.classes = {"plane": self.plane, "degree": str(self.degree), "scheme": self.scheme,
-                        "law": "+".join(sorted(self.laws)), "bodies": str(bodies), "gap": self.moves,
-                        "friction": "yes" if self.rough else "no", "round": "yes" if self.curved else "no",
-                        "temperature": "yes" if self.warm else "no",
-                        "accuracy": "yes" if self.accuracy else "no",
-                        "held by contact alone": "yes" if bodies > 1 else "no"}
+        self.contact_alone = bodies > 1
 
     def along(self, name, value, factor):
         """A datum of the direction y: "factor*value"."""

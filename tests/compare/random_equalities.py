@@ -4,22 +4,15 @@ powers of two, x and y turned by a right angle (in the plane), the bodies in the
 threads, without `solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest
 stress, force, energy and displacement of the run.
 
-Usage: random_equalities.py [--space] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
-                            [--mortier build/mortier]
+    tests/compare/random_equalities.py [--space] [--count 100] [--first SEED] [--jobs N] [--mortier PROGRAM]
 """
-import argparse
 import collections
-import concurrent.futures
-import csv
-import os
 import re
-import resource
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
+from contact_support import command, meshed, solve
 from random_choices import SpaceScene, WideScene
+from random_scenes import PATIENCE
 
 UNITS = (7.3, 0.21, 3.1)  # of stress, length and time
 WAYS = {
@@ -36,31 +29,23 @@ COLUMNS = {"time": (0, 0, 1), "contact_force": (1, 1, 0), "max_pressure": (1, 0,
 TOLERANCE = 1e-8
 
 
-def turn(path):
+def turn(mesh):
     """Turns a Medit mesh by a right angle: (x, y) becomes (-y, x)."""
-    lines = path.read_text().split("\n")
+    lines = mesh.split("\n")
     first = lines.index("Vertices") + 2
     for i in range(first, first + int(lines[first - 1])):
         x, y, rest = lines[i].split(maxsplit=2)
         lines[i] = f"{-float(y)!r} {x} {rest}"
-    path.write_text("\n".join(lines))
+    return "\n".join(lines)
 
 
-def run(program, folder, scene, turned, options, patience):
-    """Exit code and history of a run: the columns that are compared, by steps."""
-    folder.mkdir()
-    (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
-    for mesh, arguments in scene.meshes.items():
-        subprocess.run([program, "mesh", *arguments, mesh], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        if turned:
-            turn(folder / mesh)
-    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (patience, patience + 1))
+def run(program, scene, turned, options):
+    """The run, and the columns of its history that are compared, by steps."""
+    files = {name: turn(text) if turned else text for name, text in meshed(program, scene.meshes).items()}
     if "--threads" not in options:
         options = ["--threads", "1", *options]
-    done = subprocess.run([program, "run", "scene.toml", "--quiet", "--out", "out", *options], cwd=folder,
-                          preexec_fn=limit, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    history = next(folder.glob("out*/history.csv"), None)
-    rows = list(csv.DictReader(history.open())) if history else []
+    done = solve(program, "\n".join(scene.text) + "\n", "--quiet", *options, files=files, patience=PATIENCE)
+    rows = done.history
     units = UNITS if scene.length == UNITS[1] else (1, 1, 1)
     columns = {}
     for name, powers in COLUMNS.items():
@@ -69,7 +54,7 @@ def run(program, folder, scene, turned, options, patience):
         depth = 1 if deep and name in ("contact_force", "elastic_energy") else 0
         unit = units[0]**powers[0] * units[1]**(powers[1] + depth) * units[2]**powers[2]
         columns[name] = [float(row[header]) / unit for row in rows] if header else []
-    return done.returncode, columns, done.stderr
+    return done, columns
 
 
 def scales(scene, columns):
@@ -96,52 +81,35 @@ def differences(scene, columns, other):
             for name, values in columns.items()}
 
 
-def compare(program, seed, patience, kind=WideScene):
-    """The seed, the exit code as it stands, and (way, column, difference) of all ways."""
-    with tempfile.TemporaryDirectory(prefix=f"equal-{seed}-") as name:
-        folder = Path(name)
-        scene = kind(seed)
-        code, columns, _ = run(program, folder / "as it stands", scene, False, [], patience)
-        found = []
-        for way, (changes, options) in WAYS.items():
-            if way == "turned" and scene.plane in ("axisymmetric", "space"):
-                continue
-            other = kind(seed, **changes)
-            again, others, told = run(program, folder / way, other, way == "turned", options, patience)
-            if again != code:
-                found.append((way, f"exit code {code}, {again}: {told.strip()[-200:]}", float("inf")))
-                continue
-            name, worst = max(differences(scene, columns, others).items(), key=lambda item: item[1])
-            found.append((way, name, worst))
-        return seed, code, found
+def compare(program, seed, kind=WideScene):
+    """The exit code as it stands, and (way, column, difference) of all ways."""
+    scene = kind(seed)
+    done, columns = run(program, scene, False, [])
+    found = []
+    for way, (changes, options) in WAYS.items():
+        if way == "turned" and scene.plane in ("axisymmetric", "space"):
+            continue
+        again, others = run(program, kind(seed, **changes), way == "turned", options)
+        if again.code != done.code:
+            found.append((way, f"exit code {done.code}, {again.end}", float("inf")))
+            continue
+        found.append((way, *max(differences(scene, columns, others).items(), key=lambda item: item[1])))
+    return done.code, found
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--patience", type=int, default=20)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--space", action="store_true")
-    options = parser.parse_args()
-    kind = SpaceScene if options.space else WideScene
-    program, worst, unequal = str(Path(options.mortier).resolve()), collections.defaultdict(list), 0
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        seeds = range(options.seed, options.seed + options.count)
-        for seed, code, found in pool.map(lambda s: compare(program, s, options.patience, kind), seeds):
-            for way, name, difference in found:
-                worst[way].append(difference)
-                if not difference <= TOLERANCE:
-                    unequal += 1
-                    print(f"{seed:6} {code:3} {way}: {name} {difference:.2e}", flush=True)
+def examined(program, seed, space=False):
+    code, found = compare(program, seed, SpaceScene if space else WideScene)
+    return f"exit {code}", [f"{way}: {name} {difference:.2e}" for way, name, difference in found
+                            if not difference <= TOLERANCE], found
+
+
+def tell(results):
+    worst = collections.defaultdict(list)
+    for way, _, difference in [each for found in results for each in found]:
+        worst[way].append(difference)
     for way, all_of in worst.items():
-        all_of.sort()
-        print(f"{way:12} {len(all_of):6} scenes, median {all_of[len(all_of) // 2]:.1e}, "
-              f"beyond {TOLERANCE:g}: {sum(not each <= TOLERANCE for each in all_of)}")
-    return 1 if unequal else 0
+        print(f"{way:12} {len(all_of):6} scenes, median {sorted(all_of)[len(all_of) // 2]:.1e}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 100, told=tell, space="scenes in space"))

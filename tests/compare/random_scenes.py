@@ -8,50 +8,30 @@ partial overlap, gaps of either sign, eccentric loads that grow, wave or turn ro
 projections and couplings.
 
 Exit code 0 is asked for. 3 is right where contact alone holds a body and the load takes it away. 1 has to be
-rare, with a reason; a run that takes longer than the patience counts as a fault whatever it would have ended
-with.
+rare, with a reason; a run that takes longer than PATIENCE is a fault whatever it would have ended with.
 
-Usage: random_scenes.py [--choices | --space] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
-                        [--mortier build/mortier]
-Scene N is the same on every machine: random_scenes.py --seed N --count 1 --keep FOLDER shows it.
+    tests/compare/random_scenes.py [--choices | --space] [--count 100] [--first SEED] [--jobs N]
+                                   [--mortier PROGRAM]
 """
-import argparse
-import collections
-import concurrent.futures
 import importlib
-import json
-import os
 import random
-import resource
-import shutil
-import signal
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
+
+from contact_support import command, meshed, solve
+
+PATIENCE = 25  # seconds of processor time: seed 216 takes 10 to 15
+
 
 def decades(rng, least, most):
     return 10 ** rng.uniform(least, most)
 
 
-def decade_class(ratio, limits):
-    """The name of the interval between powers of ten in which a ratio lies."""
-    for limit in limits:
-        if ratio < 10.0 ** limit:
-            return f"below 1e{limit}"
-    return f"above 1e{limits[-1]}"
-
-
 class Scene:
-    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes."""
-
-    KINDS = ("yield stress over load", "scheme", "projection", "stiffness ratio", "viscosity",
-             "Poisson's ratio", "held by contact alone", "overlap", "gap", "load in time", "plane", "variant",
-             "bodies")
+    """Scene number `seed`: its text and its meshes (as arguments of `mortier mesh`)."""
 
     def __init__(self, seed):
         self.rng = rng = random.Random(seed)
-        self.classes, self.meshes = {}, {}
+        self.meshes = {}
         self.load = decades(rng, -3, 9)
         self.end = decades(rng, -2, 2)
         bodies = rng.choices([1, 2, 3], [1, 8, 1])[0]
@@ -64,16 +44,6 @@ class Scene:
         self.stiffness = decades(rng, -6, 12)  # theta e of the whole run
         self.poisson = rng.choice([-0.99, 0, 0.3, 0.4999, rng.uniform(-0.99, 0.4999),
                                    rng.uniform(-0.5, 0.49)])
-        self.classes.update({
-            "yield stress over load": "elastic" if self.yield_ratio == 0 else decade_class(self.yield_ratio,
-                                                                                           (-8, -5, -3, 0)),
-            "projection": "elastic" if self.yield_ratio == 0 else "(all one)" if plane == "strain"
-            else self.projection,
-            "stiffness ratio": "one body" if bodies == 1 else decade_class(self.ratio, (-6, -3, 0, 3, 6)),
-            "viscosity": "elastic" if self.yield_ratio == 0 else "theta e " + decade_class(self.stiffness,
-                                                                                           (-2, 2, 5, 8)),
-            "Poisson's ratio": "below -0.9" if self.poisson < -0.9 else "above 0.49" if self.poisson
-            > 0.49 else "between", "plane": plane, "bodies": str(bodies)})
         self.text = [f'title = "random scene {seed}"', f'plane = "{plane}"']
         self.make_bodies(bodies)
         self.make_time()
@@ -103,21 +73,15 @@ class Scene:
     def in_time(self):
         """How the loads vary: between -1 and 1 over the run."""
         s = f"(t/{self.end!r})"
-        shape, text = self.rng.choice([("ramp", s), ("ramp", s), ("ramp, then hold", f"min(1, 2*{s})"),
-                                       ("up and down", f"({s}<0.5 ? 2*{s} : 2-2*{s})"),
-                                       ("waves", f"sin(6*pi*{s})"),
-                                       ("there at t = 0", "1"), ("power", f"{s}^4")])
-        self.classes["load in time"] = shape
-        return text
+        return self.rng.choice([s, s, f"min(1, 2*{s})", f"({s}<0.5 ? 2*{s} : 2-2*{s})", f"sin(6*pi*{s})", "1",
+                                f"{s}^4"])
 
     def make_bodies(self, count):
         rng = self.rng
         names = ("lower", "upper", "top")[:count]
         overlap = rng.choice(["full", "partial", "narrow"]) if count > 1 else "one body"
         sign = rng.choice(["none", "none", "open", "overlapping"]) if count > 1 else "one body"
-        contact_alone = count > 1 and rng.random() < 0.4
-        self.classes.update({"overlap": overlap, "gap": sign,
-                             "held by contact alone": "yes" if contact_alone else "no"})
+        self.contact_alone = contact_alone = count > 1 and rng.random() < 0.4
         amount = {"open": 1, "overlapping": -1}.get(sign, 0) * decades(rng, -12, -2.5)
         left, bottom, width = 0.0, 0.0, 1.0
         for i, name in enumerate(names):
@@ -139,11 +103,9 @@ class Scene:
 
     def contacts(self, names, overlap):
         rng = self.rng
-        self.classes["variant"] = "one body"
         for lower, upper in zip(names, names[1:]):
             sides = [f'{{ body = "{upper}", label = 1 }}', f'{{ body = "{lower}", label = 3 }}']
             variant = rng.choice(["mortar", "mortar", "interpolation"])
-            self.classes["variant"] = variant
             self.text += ["[[contact]]", f'variant = "{variant}"', 'sliding = "allow"']
             # A nonmortar line with one cell may have no node that the narrow body faces.
             if overlap != "narrow" and rng.random() < 0.3:
@@ -193,7 +155,6 @@ class Scene:
         rng = self.rng
         scheme = rng.choice(["backward-euler", "backward-euler", "crank-nicolson", "sdirk2",
                              "sdirk2 by error", "sdirk2 by error", "backward-euler by error"])
-        self.classes["scheme"] = scheme
         self.text += ["[time]", f"end = {self.end!r}", f'scheme = "{scheme.split()[0]}"']
         if "error" in scheme:
             self.text.append("tolerance = "
@@ -202,96 +163,18 @@ class Scene:
             self.text.append(f"steps = {rng.choice([1, 2, 5, 10, 20])}")
 
 
-def try_scene(kind, seed, program, patience, keep):
-    """Runs scene `seed` of a kind: its classes, how it ended, what was said,
-    seconds of processor time and linear solves."""
+def run_of(program, seed, kind=Scene):
+    """The scene, and how the program ends on it."""
     scene = kind(seed)
-    with tempfile.TemporaryDirectory(prefix=f"random-{seed}-") as name:
-        folder = Path(name)
-        (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
-        for mesh, arguments in scene.meshes.items():
-            subprocess.run([program, "mesh", *arguments, mesh], cwd=folder, check=True,
-                           stdout=subprocess.DEVNULL)
-        limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (patience, patience + 1))
-        with (folder / "err").open("w+") as err:
-            process = subprocess.Popen([program, "run", "scene.toml", "--quiet", "--threads", "1", "--out",
-                                        "out"],
-                                       cwd=folder, preexec_fn=limit, stdout=subprocess.DEVNULL, stderr=err)
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-            err.seek(0)
-            told = [line for line in err.read().splitlines() if not line.startswith("mortier: warning: ")]
-        summary = next(folder.glob("out*/summary.json"), None)
-        facts = json.loads(summary.read_text()) if summary else {}
-        if keep:
-            shutil.copytree(folder, Path(keep) / str(seed), dirs_exist_ok=True)
-    code = process.returncode
-    return {"seed": seed, "code": "long" if code == -signal.SIGXCPU else code,
-            "told": " ".join(told), "seconds": used.ru_utime + used.ru_stime,
-            "solves": facts.get("newton_iterations", 0), "classes": scene.classes}
+    return scene, solve(program, "\n".join(scene.text) + "\n", "--quiet", "--threads", "1",
+                        files=meshed(program, scene.meshes), patience=PATIENCE)
 
 
-def tabulate(results, kinds, out=sys.stdout):
-    """Exit codes by class."""
-    codes = sorted({result["code"] for result in results}, key=str)
-    print(f"{'':44}{'scenes':>8}" + "".join(f"{code!s:>7}" for code in codes) + "   share of 1, long",
-          file=out)
-
-    def row(name, part):
-        count = collections.Counter(result["code"] for result in part)
-        bad = sum(n for code, n in count.items() if code not in (0, 2, 3))
-        print(f"{name:44}{len(part):8}" + "".join(f"{count[code]:7}"
-                                                  for code in codes) + f"{bad / len(part):12.1%}",
-              file=out)
-
-    row("all", results)
-    for kind in kinds:
-        for value in sorted({result["classes"][kind] for result in results}):
-            row(f"{kind}: {value}", [result for result in results if result["classes"][kind] == value])
-
-
-def explore(program, seed, count, patience=20, jobs=1, keep=None, watch=lambda result: None, kind=Scene):
-    """Tries scenes; returns what try_scene() does of each."""
-    program, results = str(Path(program).resolve()), []
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for result in pool.map(lambda number: try_scene(kind, number, program, patience, keep),
-                               range(seed, seed + count)):
-            watch(result)
-            results.append(result)
-    return results
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--patience", type=int, default=20,
-                        help="seconds of processor time that a run may take")
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--keep", help="folder to copy the scenes and results to")
-    parser.add_argument("--json", help="file for the results, one a line")
-    parser.add_argument("--choices", action="store_true", help="scenes of random_choices.py")
-    parser.add_argument("--space", action="store_true", help="those in space")
-    options = parser.parse_args()
-    choices = importlib.import_module("random_choices")
-    kind = choices.SpaceScene if options.space else choices.WideScene if options.choices else Scene
-
-    def watch(result):
-        if result["code"] != 0:
-            print(f"{result['seed']:6} {result['code']!s:>5} {result['seconds']:7.2f} s  "
-                  f"{result['told'][:300]}", flush=True)
-        if options.json:
-            with open(options.json, "a", encoding="utf-8") as file:
-                file.write(json.dumps(result) + "\n")
-
-    results = explore(options.mortier, options.seed, options.count, options.patience, options.jobs,
-                      options.keep, watch, kind)
-    tabulate(results, kind.KINDS)
-    print(f"slowest: {max(result['seconds'] for result in results):.1f} s")
-    return 1 if any(result["code"] not in (0, 3) for result in results) else 0
+def examined(program, seed, choices=False, space=False):
+    of = importlib.import_module("random_choices")
+    _, run = run_of(program, seed, of.SpaceScene if space else of.WideScene if choices else Scene)
+    return f"exit {run.code}", [] if run.code in (0, 3) else [run.end]
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 100, choices="scenes of random_choices.py", space="those in space"))

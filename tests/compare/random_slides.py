@@ -1,24 +1,17 @@
 #!/usr/bin/python3
 """Random bodies that slide along each other with sliding = "finite": blocks and discs on blocks, stiffnesses
 that differ by up to 1e6, friction up to 1, past ends and corners, back and forth. Every run ends certified,
-or with a reason. Prints a line for each: its exit code, the linear solves that its steps took, the message.
+or with a reason. Shown of each are its exit code, the linear solves that its steps took, the message.
 
-    tests/compare/random_slides.py --count 50 [--first SEED] [--jobs N] [--mortier PROGRAM]
+    tests/compare/random_slides.py [--all] [--count 50] [--first SEED] [--jobs N] [--mortier PROGRAM]
 """
-import argparse
-import csv
-import json
 import random
-import re
 import statistics
-import subprocess
 import sys
-import tempfile
-from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from contact_support import command, solve
+
+CERTIFIED = ("force_balance", "gap_on_active", "friction", "complementarity")
 
 
 def variant_of(rng):
@@ -91,70 +84,19 @@ steps = {rng.choice([10, 20, 40])}
 """
 
 
-def run(program, seed, folder):
-    (folder / "scene.toml").write_text(scene(seed))
-    done = subprocess.run([program, "run", "scene.toml", "--quiet", "--threads", "1", "--out", "out"],
-                          cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
-    out = folder / ("out" if done.returncode == 0 else "out.failed")
-    summary = json.loads((out / "summary.json").read_text()) if (out / "summary.json").exists() else None
-    solves = []
-    if (out / "history.csv").exists():
-        with open(out / "history.csv", newline="") as file:
-            solves = [int(row["iterations"]) for row in csv.DictReader(file) if int(row["step"]) > 0]
-    return done, summary, solves
-
-
 def examined(program, seed):
-    """Exit code, linear solves of its steps, and what is wrong with it or empty."""
-    with tempfile.TemporaryDirectory() as name:
-        try:
-            done, summary, solves = run(program, seed, Path(name))
-        except subprocess.TimeoutExpired:
-            return None, [], "fault: does not end", ""
-    told = " ".join(line for line in done.stderr.splitlines() if " warning: " not in line)
-    wrong = ""
-    if done.returncode not in (0, 1, 3) or (summary is None and done.returncode != 3):
-        wrong = "fault: no result"
-    elif done.returncode == 0 and max(summary["verification"][key] for key in CERTIFIED
-                                      if key in summary["verification"]) > 1e-8:
-        wrong = f"fault: not certified, {summary['verification']}"
-    return done.returncode, solves, wrong, re.sub(r"\s+", " ", told)[:400]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=50)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
-    parser.add_argument("--mortier", default=str(ROOT / "build" / "mortier"))
-    arguments = parser.parse_args()
-    program = str(Path(arguments.mortier).resolve())
-    ends = Counter()
-    faults = []
-    medians = []
-    seeds = range(arguments.first, arguments.first + arguments.count)
-    with ThreadPoolExecutor(arguments.jobs) as pool:
-        for seed, (code, solves, wrong, told) in zip(
-                seeds, pool.map(lambda seed: examined(program, seed), seeds)):
-            ends[code] += 1
-            if wrong:
-                faults.append(seed)
-            line = f"{seed}: exit {code}, {len(solves)} steps"
-            if solves:
-                medians.append(statistics.median(solves))
-                line += f", solves of a step: median {medians[-1]:g}, most {max(solves)}"
-            print(" ".join(filter(None, (line, wrong, told))), flush=True)
-    print(f"{arguments.count} scenes: " + ", ".join(f"exit {code}: {n}" for code, n in ends.most_common()))
-    if medians:
-        print(f"linear solves of a step: median {statistics.median(medians):g}, "
-              f"largest median of a run {max(medians):g}")
-    print("faults: " + (", ".join(map(str, faults)) or "none"))
-    return 1 if faults else 0
-
-
-CERTIFIED = ("force_balance", "gap_on_active", "friction", "complementarity")
+    run = solve(program, scene(seed), "--quiet", "--threads", "1", patience=300)
+    solves = [int(row["iterations"]) for row in run.history if int(row["step"]) > 0]
+    shown = f"{run.end}, {len(solves)} steps"
+    if solves:
+        shown += f", solves of a step: median {statistics.median(solves):g}, most {max(solves)}"
+    if run.code not in (0, 1, 3) or not run.summary and run.code != 3:
+        return shown, ["no result"]
+    verified = run.summary.get("verification", {})
+    if run.code == 0 and max(verified[key] for key in CERTIFIED if key in verified) > 1e-8:
+        return shown, [f"not certified, {verified}"]
+    return shown, []
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 50))

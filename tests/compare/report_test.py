@@ -1,7 +1,6 @@
 """Pages of mortier report in headless Chromium: what one points at is what the files hold, by mouse and by
 keyboard."""
-import json
-import re
+import base64
 import unittest
 
 import numpy as np
@@ -53,10 +52,6 @@ class Contents(Pages):
     def test_hovered_values_are_those_of_the_files(self):
         path, milliseconds = self.page("mortar", "interpolation")
         self.assertLess(path.stat().st_size, 2e6)  # of two runs
-        for run in json.loads(re.search(r'id="data">(.*)</script>', path.read_text())[1])["runs"]:
-            last = {how for _, how, _ in run["steps"][-1]["f"]}
-            self.assertLessEqual(last, {coding.BEFORE, coding.GIVEN},
-                                 "what is seen first needs no other step")
         self.assertLess(milliseconds, 10000)
         for step in (100, 37, 0):
             choose(self.browser, "step", step)
@@ -261,13 +256,9 @@ class Coding(unittest.TestCase):
         """1e5 triangles, 5 steps of fields that are rough by themselves:
         each block beside what it would be raw."""
         rng = np.random.default_rng(1)
-        smooth = np.sin(np.linspace(0, 40, 100_000))
-        block = coding.Block()
-        block.add(smooth, 6)
-        self.assertLess(len(block.bytes()), 250_000)
-        rough = coding.Block()
-        rough.add(rng.normal(size=100_000), 6)
-        self.assertLess(len(rough.bytes()), 330_000)
+        for values, most in ((np.sin(np.linspace(0, 40, 100_000)), 250_000),
+                             (rng.normal(size=100_000), 330_000)):
+            self.assertLess(len(base64.b64decode(coding.block([(values, 6)])[0]["d"])), most)
 
     def test_extremes(self):
         for values in (np.zeros(5), np.array([]), np.array([1e-320, 0]), np.array([1e300, -1e300]),

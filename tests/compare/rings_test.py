@@ -32,36 +32,6 @@ allow = ["initial-load"]
 """
 
 
-# Rings in each other, between plates too.
-FIT = """\
-plane = "axisymmetric"
-degree = 2
-[[body]]
-name = "shaft"
-mesh = { shape = "rectangle", lower = [10, 0], upper = [20, 2], cells = [8, 3] }
-material = { young = 2e5, poisson = 0.3, expansion = 1.2e-5 }
-boundary = [ { label = 1, uy = 0 }, { label = 3, uy = 0 } ]
-SHAFT
-[[body]]
-name = "hub"
-mesh = { shape = "rectangle", lower = [20, 0], upper = [40, 2], cells = [10, 3] }
-material = { young = 1e5, poisson = 0.25, expansion = 2.3e-5 }
-boundary = [ { label = 1, uy = 0 }, { label = 3, uy = 0 } ]
-HUB
-[contact]
-nonmortar = { body = "shaft", label = 2 }
-mortar = { body = "hub", label = 4 }
-gap = -0.01
-[[quantity]]
-name = "force"
-contact_force = { body = "hub", label = 4 }
-component = "x"
-[time]
-end = 1
-steps = 2
-"""
-
-
 class HotRings(OfRings):
     def test_free_expansion_has_no_stress(self):
         """Whatever the law, also where it remembers more than the stress."""
@@ -70,8 +40,8 @@ class HotRings(OfRings):
         laws = ("", ', law = "standard-solid", relaxation_time = 0.1, relaxed_fraction = 0.4',
                 ', law = "norton", reference_stress = 1, reference_rate = 1, exponent = 3', growing)
         for plane, part in (("axisymmetric", 1), ("stress", 1), ("strain", 1.3)):
-            for law in laws if plane == "axisymmetric" else (growing,):
-                for scheme in ("time.scheme=backward-euler", "time.scheme=sdirk2"):
+            for law in ("", growing) if plane == "strain" else laws:
+                for scheme in ("time.scheme=backward-euler", "time.scheme=sdirk2", "time.tolerance=1e-3"):
                     with self.subTest(plane=plane, law=law, scheme=scheme):
                         text = heat_test.BLOCK.replace("PLANE", plane).replace("BESIDE", "")
                         # In plane strain it is pressed across the plane: it shall not flow.
@@ -116,16 +86,6 @@ class HotRings(OfRings):
             self.orders([8, 16, 32], run, least - 0.1, 0.05 if degree == 1 else 1e-3)
             order = np.polyfit(np.log([8, 16, 32]), np.log(self.moved), 1)[0]
             self.assertGreaterEqual(-order, least + 0.9, self.moved)
-
-    def test_a_fit_heated_and_cooled(self):
-        """Rings in each other between plates: the exact pressure of plane strain."""
-        for shaft, hub in ((0, 0), (80, 0), (0, -40), (100, 20), (-30, 0)):
-            with self.subTest(shaft=shaft, hub=hub):
-                text = FIT
-                for name, heat in (("SHAFT", shaft), ("HUB", hub)):
-                    text = text.replace(name, f'temperature = "{heat}*t"' if heat else "")
-                pressure = value(self.run_it(text), "force") / (2 * math.pi * 20 * 2)
-                self.assertAlmostEqual(pressure / heat_test.Heat.lame("strain", shaft, hub), 1, delta=1e-5)
 
 
 class FlowingRings(OfRings):

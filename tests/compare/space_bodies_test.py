@@ -55,10 +55,14 @@ dissipated_energy = { body = "cube" }
                 'poisson13 = 0.1, poisson23 = 0.1, shear12 = 20.833333333333332, shear13 = 30, shear23 = 30'
         norton = ', law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3'
         perzyna = ", viscosity = 10, yield_stress = 2"
-        both = [ISOTROPIC + ', law = "viscoplastic", ' + law
-                for law in (hardens + ", viscosity = 1", hardens + ", viscosity = 0",
-                            hardens + ", viscosity = 0, kinematic_hardening = 20",
-                            hardens + ", reference_stress = 1, reference_rate = 0.1, exponent = 2")]
+        relaxes = "relaxation_time = 0.5"
+        both = [ISOTROPIC + law for law in (norton, f', law = "maxwell", {relaxes}',
+                                            f', law = "standard-solid", {relaxes}, relaxed_fraction = 0.4')]
+        both += [ISOTROPIC + ', law = "viscoplastic", ' + law
+                 for law in (hardens + ", viscosity = 1", hardens + ", viscosity = 0",
+                             "yield_stress = 2, viscosity = 1, kinematic_hardening = 20",
+                             hardens + ", viscosity = 0, kinematic_hardening = 20",
+                             hardens + ", reference_stress = 1, reference_rate = 0.1, exponent = 2")]
         for one, other in [(each, each) for each in both] + [(ring, space), (ring + norton, space + norton),
                                                              (ring + perzyna, space + perzyna)]:
             for degree, scheme in ((1, "backward-euler"), (2, "sdirk2"), (1, "crank-nicolson")):

@@ -285,6 +285,7 @@ HARD = {
     "shrink fits, cells": ["Shrink fit"],
     "flat punch: nodal": ["Flat punch"],
     "NAFEMS R0094": ["NAFEMS R0094"],
+    "sphere on a block (Hertz)": ["Sphere on a block", "Receding contact"],
     "two spheres (SSNV104)": ["Two spheres", "Kratos' hemispheres"],
     "the same in space, the spheres": ["Two spheres in space", "Kratos' hemispheres in space"],
     "spherical shells in space": ["Spherical shells in space"],

@@ -6,20 +6,15 @@ and curves of geometries, pins in holes, given distances; either side nonmortar,
 variants, sections in a plane and around an axis. They touch in one point at least or are lifted, and stay
 where they are or part further in the run.
 
-Usage: touching.py [--count 100] [--seed 0] [--mortier build/mortier] [--keep FOLDER]
-Exit code 1 where a drawing has a force; its scene is then named. Drawing N is the same on every machine.
+    tests/compare/touching.py [--count 100] [--first SEED] [--jobs N] [--mortier PROGRAM]
 """
-import argparse
-import json
 import math
-import os
 import random
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import numpy as np
+
+from contact_support import command, solve
 
 FINE = 4001  # points at which the distance of two curves is sampled
 
@@ -221,38 +216,14 @@ class Drawing:
         return blocks, (3, 1)
 
 
-def force_of(drawing, program, folder):
-    """The largest sum of nodal forces of contact at any step; None where the run failed, with its words."""
-    for name, text in {**drawing.files, "scene.toml": drawing.scene}.items():
-        (folder / name).write_text(text)
-    done = subprocess.run([program, "run", "scene.toml", "--quiet", "--out", "out"], cwd=folder, text=True,
-                          capture_output=True, timeout=300)
-    if done.returncode != 0:
-        return None, [line for line in done.stderr.splitlines() if ": warning: " not in line][-1]
-    return json.loads((folder / "out" / "summary.json").read_text())["peaks"]["contact_force"]["value"], ""
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--mortier", default="build/mortier")
-    parser.add_argument("--keep", type=Path)
-    arguments = parser.parse_args()
-    program = os.path.abspath(arguments.mortier)
-    wrong = 0
-    for seed in range(arguments.seed, arguments.seed + arguments.count):
-        drawing = Drawing(seed)
-        with tempfile.TemporaryDirectory() as folder:
-            place = arguments.keep / str(seed) if arguments.keep else Path(folder)
-            place.mkdir(parents=True, exist_ok=True)
-            force, words = force_of(drawing, program, place)
-        if force != 0:
-            wrong += 1
-            print(f"{seed}: {drawing.shows}: {force} {words}", flush=True)
-    print(f"{arguments.count} drawings, {wrong} with a force or a failure")
-    return 1 if wrong else 0
+def examined(program, seed):
+    drawing = Drawing(seed)
+    run = solve(program, drawing.scene, "--quiet", files=drawing.files, patience=300)
+    if run.code != 0:
+        return drawing.shows, [run.end]
+    force = run.summary["peaks"]["contact_force"]["value"]  # the largest sum of nodal forces at any step
+    return drawing.shows, [f"a force of {force}"] if force else []
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 100))

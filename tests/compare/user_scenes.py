@@ -46,10 +46,7 @@ GEOMETRIES = ("stack", "stack", "files", "press", "fit", "fit", "disc", "corner"
 
 
 class UserScene(WideScene):
-    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`), its files and classes."""
-
-    KINDS = ("geometry", "plane", "degree", "scheme", "law", "friction", "starts apart", "at t = 0",
-             "accuracy")
+    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its files."""
 
     def __init__(self, seed):
         self.rng = rng = random.Random(7919 * seed + 3)
@@ -85,10 +82,6 @@ class UserScene(WideScene):
         self.asked()
         self.make_time()
         self.text += ["[output]", f"every = {rng.choice([0, 1])}"]
-        self.classes = {"geometry": self.geometry, "plane": self.plane, "degree": str(self.degree),
-                        "scheme": self.scheme, "law": "+".join(sorted(self.laws)),
-                        "friction": "yes" if self.rough else "no", "starts apart": str(self.apart),
-                        "at t = 0": str(self.at_start), "accuracy": self.accuracy or "none"}
 
     def body(self, name, mesh, *boundary, point=(), young=1.0):
         self.names.append(name)
@@ -260,8 +253,6 @@ class UserScene(WideScene):
 class UserSpaceScene(UserScene):
     """The same in space: stacks of cuboids, some apart, a ball on a block, one body."""
 
-    KINDS = ("geometry", "degree", "scheme", "law", "starts apart", "at t = 0", "accuracy")
-
     def __init__(self, seed):
         self.rng = rng = random.Random(104729 * seed + 11)
         self.geometry = rng.choice(("stack", "stack", "ball", "alone"))
@@ -284,9 +275,6 @@ class UserSpaceScene(UserScene):
         self.asked()
         self.make_time()
         self.text += ["[output]", f"every = {rng.choice([0, 1])}"]
-        self.classes = {"geometry": self.geometry, "degree": str(self.degree), "scheme": self.scheme,
-                        "law": "+".join(sorted(self.laws)), "starts apart": str(self.apart),
-                        "at t = 0": str(self.at_start), "accuracy": self.accuracy or "none"}
 
     def driven(self, label, apart=0.0, held=""):
         return super().driven(label, apart, held).replace("uy = ", "uz = ").replace("ty = ", "tz = ")

@@ -6,26 +6,23 @@ Each has to be done, or refused: then in the words that `mortier check` gave bef
 a finding: another exit code, a traceback, a difference, a script that FreeFEM cannot run, a refusal that
 comes late.
 
-Usage: user_walk.py [--count 60] [--seed 0] [--space] [--jobs 1] [--keep FOLDER] [--mortier build/mortier]
-Scene N is the same on every machine.
+    tests/compare/user_walk.py [--count 60] [--first SEED] [--space] [--jobs N] [--mortier PROGRAM]
 """
-import argparse
 import collections
-import concurrent.futures
 import json
 import os
 import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
+from contact_support import command, meshed, new_folder
 from user_scenes import UserScene, UserSpaceScene
 
-ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 FREEFEM = os.environ.get("FREEFEM", "FreeFem++-nw")
+PATIENCE = 120  # seconds of a command
 STUDY = """\
 scene = "scene.toml"
 [[error]]
@@ -58,30 +55,24 @@ class Walk:
     """One scene through all commands: `ways` is command -> done, refused or failed; `findings` says of what
     failed why."""
 
-    def __init__(self, program, folder, scene, patience):
-        self.program, self.folder, self.scene, self.patience = program, folder, scene, patience
-        self.ways, self.findings, self.seconds = {}, [], {}
+    def __init__(self, program, folder, scene):
+        self.program, self.folder, self.scene = program, folder, scene
+        self.ways, self.findings = {}, []
         (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
         (folder / "study.toml").write_text(
             STUDY.replace("displacement", "von_mises_max") if scene.plane == "space" else STUDY)
-        for name, text in scene.files.items():
+        for name, text in {**scene.files, **meshed(program, scene.meshes)}.items():
             (folder / name).write_text(text)
-        for mesh, words in scene.meshes.items():
-            self.call([program, "mesh", *words, mesh])
 
     def call(self, command, **options):
-        begin = time.perf_counter()
         environment = {**os.environ, "MORTIER": self.program, "PYTHONPATH": str(
             Path(self.program).parent / "python"), "MPLBACKEND": "agg"}
         try:
             return subprocess.run([str(word) for word in command], cwd=self.folder, env=environment,
                                   text=True, capture_output=True, errors="replace",
-                                  timeout=self.patience, **options)
+                                  timeout=PATIENCE, **options)
         except subprocess.TimeoutExpired:
             return subprocess.CompletedProcess(command, "too long", "", "")
-        finally:
-            name = command[1] if str(command[0]) == self.program else Path(command[0]).name
-            self.seconds[name] = self.seconds.get(name, 0) + time.perf_counter() - begin
 
     def mortier(self, *words):
         return self.call([self.program, *words])
@@ -215,53 +206,24 @@ class Walk:
                 self.fail("restart", "other numbers")
 
 
-def walk(program, seed, keep=None, patience=120, scenes=UserScene):
-    with tempfile.TemporaryDirectory(prefix=f"walk-{seed}-") as temporary:
-        folder = Path(keep or temporary) / str(seed)
-        folder.mkdir(parents=True, exist_ok=True)
-        each = Walk(program, folder.resolve(), scenes(seed), patience)
+def walk(program, seed, scenes=UserScene):
+    with new_folder() as folder:
+        each = Walk(program, folder.resolve(), scenes(seed))
         each.go()
-        return seed, each
+        return each
 
 
-def explore(program, seeds, jobs=1, keep=None, watch=lambda seed, each: None, patience=120,
-            scenes=UserScene):
-    program, walks = str(Path(program).resolve()), []
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for seed, each in pool.map(lambda number: walk(program, number, keep, patience, scenes),
-                                   seeds):
-            watch(seed, each)
-            walks.append((seed, each))
-    return walks
+def examined(program, seed, space=False):
+    each = walk(program, seed, UserSpaceScene if space else UserScene)
+    return each.scene.geometry, each.findings, each.ways
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
-    parser.add_argument("--count", type=int, default=60)
-    parser.add_argument("--seed", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--space", action="store_true", help="scenes in space")
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--keep", help="folder of the scenes and results")
-    parser.add_argument("--patience", type=float, default=120, help="seconds of a command")
-    options = parser.parse_args()
-
-    def watch(seed, each):
-        for finding in each.findings:
-            print(f"{seed:5} {each.scene.geometry:7} {finding}", flush=True)
-
-    seeds = range(options.seed, options.seed + options.count)
-    walks = explore(options.mortier, seeds, options.jobs, options.keep, watch, options.patience,
-                    UserSpaceScene if options.space else UserScene)
-    count = collections.Counter((way, how) for _, each in walks for way, how in each.ways.items())
+def tabulate(walks):
+    count = collections.Counter(each for ways in walks for each in ways.items())
     print(f"{'':10}{'done':>9}{'refused':>9}{'failed':>9}")
     for way in dict.fromkeys(way for way, _ in count):
         print(f"{way:10}" + "".join(f"{count[way, how]:9}" for how in ("done", "refused", "failed")))
-    bad = sum(bool(each.findings) for _, each in walks)
-    print(f"{len(walks)} scenes: {len(walks) - bad} without a finding, {bad} with one")
-    return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command(__doc__, examined, 60, told=tabulate, space="scenes in space"))

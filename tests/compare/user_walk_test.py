@@ -6,8 +6,8 @@ import unittest
 
 from support import PROGRAM, OfTwoBlocks
 from tutorial import files as tutorial_files
-from user_scenes import UserSpaceScene
-from user_walk import explore
+from user_scenes import UserScene, UserSpaceScene
+from user_walk import walk
 
 # STEP with a bound and rounds; bodies of files with rounds and a bound that is refused; an aim at a quantity
 SEEDS = (1, 11, 17)
@@ -72,9 +72,10 @@ steps = [1, 2]
 
 class Walks(unittest.TestCase):
     def test_every_command_is_done_or_refused_as_check_said(self):
-        walks = explore(PROGRAM, SEEDS) + explore(PROGRAM, IN_SPACE, scenes=UserSpaceScene)
-        for seed, each in walks:
-            with self.subTest(seed=seed, geometry=each.scene.geometry):
+        for seed, kind in [*((seed, UserScene) for seed in SEEDS),
+                           *((seed, UserSpaceScene) for seed in IN_SPACE)]:
+            with self.subTest(seed=seed, kind=kind.__name__):
+                each = walk(PROGRAM, seed, kind)
                 self.assertEqual(each.findings, [])
                 done = {"check", "run", "python", "study", "plot", "report", "compare"}
                 done -= {"compare"} if each.scene.plane == "space" else set()

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from support import InFolder, script, warned
+from support import InFolder, warned
 
 SCENE = """\
 plane = "strain"

@@ -1,4 +1,4 @@
-// Single bodies that turn about the axis x = 0: uniform states, Lame's cylinder and sphere, flow.
+// Single bodies that turn about the axis x = 0: uniform states, Lame's sphere, a tube that flows.
 #include "theory/axisymmetric.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "fem/rigid_modes.h"
-#include "material/norton.h"
 
 namespace mortier::axisymmetric_test {
 
@@ -120,37 +119,6 @@ struct Orders {
   double last;  ///< error of the finest mesh, at most
 };
 
-// u = (1 + nu)/E p a^2/(b^2 - a^2) ((1 - 2 nu) r + b^2/r), a = 1, b = 2, nothing moves along the axis.
-TEST(Axisymmetric, lamesCylinder) {
-  for (const Orders& orders : {Orders{1, 1.9, 2e-3}, Orders{2, 2.9, 1e-5}})
-    for (const double nu : {0.3, 0.49}) {
-      std::vector<double> h;
-      std::vector<double> errors;
-      for (const int cells : {8, 16, 32}) {
-        Model model;
-        model.bodies.emplace_back(
-            "tube",
-            rectangleMesh({.lower = {1, 0}, .upper = {2, 1}, .cellsX = cells, .cellsY = cells}, Cut::both),
-            elasticMaterial({young, nu}, Plane::strain),
-            Conditions{{{bottom, alongY, constant(0)}, {top, alongY, constant(0)}},
-                       {{left, alongNormal, constant(-1)}},
-                       {}},
-            orders.degree, true);
-        const auto [state, report] = run(model, 1, 1);
-        ASSERT_EQ(report.status, Status::converged) << report.reason;
-        h.push_back(1.0 / cells);
-        errors.push_back(
-            displacementError(model.bodies[0], state.bodies[0].displacement, [&](const Point& x) {
-              return Point((1 + nu) / young / 3 * ((1 - 2 * nu) * x.x() + 4 / x.x()), 0);
-            }));
-      }
-      std::cout << "Lame's cylinder, degree " << orders.degree << ", nu = " << nu << ": errors " << errors[0]
-                << " " << errors[1] << " " << errors[2] << ", order " << fittedOrder(h, errors) << "\n";
-      EXPECT_GE(fittedOrder(h, errors), orders.least);
-      EXPECT_LE(errors.back(), orders.last);
-    }
-}
-
 // u = p a^3/(b^3 - a^3) ((1 - 2 nu)/E R + (1 + nu)/(2 E) b^3/R^2): a quarter of the section, whose side on
 // the axis is held by itself.
 TEST(Axisymmetric, lamesSphere) {
@@ -158,7 +126,7 @@ TEST(Axisymmetric, lamesSphere) {
     const double R = x.norm();
     return Point(((1 - 2 * poisson) * R + (1 + poisson) / 2 * 8 / (R * R)) / young / 7 * x / R);
   };
-  for (const Orders& orders : {Orders{1, 1.8, 3e-3}, Orders{2, 2.5, 1e-4}}) {
+  for (const Orders& orders : {Orders{1, 1.9, 2e-3}, Orders{2, 2.9, 1e-5}}) {
     std::vector<double> h;
     std::vector<double> errors;
     for (const int cells : {4, 8, 16}) {
@@ -188,38 +156,7 @@ TEST(Axisymmetric, lamesSphere) {
   }
 }
 
-/// A bar of radius 1 and length 1 under a pressure, for a time.
-Result pulledBar(const std::shared_ptr<const Material>& material, double pressure, double end, int steps) {
-  Model model;
-  model.bodies.emplace_back(
-      "bar", shakenSection(0, 1, 0, 1, 3, 5), material,
-      Conditions{{{bottom, alongY, constant(0)}}, {{top, alongY, constant(-pressure)}}, {}}, 1, true);
-  return run(model, end, steps);
-}
-
-// Under a uniaxial stress flow is that of three dimensions: the bar widens by half of what it shortens.
-TEST(Axisymmetric, barsFlowAsInThreeDimensions) {
-  constexpr double viscosity = 10;
-  constexpr double yieldStress = 1;
-  constexpr double pressure = 3;
-  constexpr double end = 2;
-  const double perzyna = 2.0 / 3 * (pressure - yieldStress) / (2 * viscosity);
-  const double norton = 0.01 * std::pow(pressure / 2, 4);
-  const std::pair<std::shared_ptr<const Material>, double> laws[] = {
-      {perzynaMaterial({young, poisson}, {viscosity, yieldStress}, Plane::strain), perzyna},
-      {nortonMaterial({young, poisson}, {2, 0.01, 4}, Plane::axisymmetric), norton}};
-  for (const auto& [material, rate] : laws) {
-    const auto [state, report] = pulledBar(material, pressure, end, 4);
-    ASSERT_EQ(report.status, Status::converged) << report.reason;
-    const double length = pressure / young + rate * end;
-    const double width = poisson * pressure / young + rate * end / 2;
-    EXPECT_LE(errorOfUniform(state.bodies[0].stress, ringStress(0, -pressure, 0, 0)), 1e-9);
-    EXPECT_NEAR(state.bodies[0].displacement.minCoeff(), -length, 1e-9 * length);
-    EXPECT_NEAR(state.bodies[0].displacement.maxCoeff(), width, 1e-9 * length);
-  }
-}
-
-// Steady flow of a tube under inner pressure, between plates: as in plane strain (thick_cylinder_test.cpp).
+// Steady flow of a tube under inner pressure, between plates, as in plane strain.
 TEST(Axisymmetric, tubeCreepsAtTheKnownRate) {
   constexpr double viscosity = 10;
   constexpr double yieldStress = 1;

@@ -23,6 +23,7 @@ struct Compression {
   Elasticity lower = scenes::noteElasticity;
   Viscoplasticity upperLaw = scenes::noteLaw(Projection::elasticity);  ///< viscosity 0: elastic
   Viscoplasticity lowerLaw = scenes::noteLaw(Projection::elasticity);
+  Plane plane = Plane::stress;
   CouplingKind coupling = CouplingKind::mortar;
   int nonmortar = scenes::upperBody;
   double lowerShift = 0;      ///< of the lower block to the right [m]
@@ -56,8 +57,9 @@ struct Compression {
   [[nodiscard]] std::shared_ptr<const Material> material(const Elasticity& elasticity,
                                                          const Viscoplasticity& law) const {
     const Elasticity scaled{elasticity.young * stress, elasticity.poisson};
-    if (law.viscosity == 0) return elasticMaterial(scaled);
-    return perzynaMaterial(scaled, {law.viscosity * stress * time, law.yieldStress * stress, law.projection});
+    if (law.viscosity == 0) return elasticMaterial(scaled, plane);
+    return perzynaMaterial(scaled, {law.viscosity * stress * time, law.yieldStress * stress, law.projection},
+                           plane);
   }
 
   /// Makes the row of cells of height h at y = 0 flat and the others taller.

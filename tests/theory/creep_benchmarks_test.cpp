@@ -150,31 +150,6 @@ TEST(CreepBenchmarks, squaresUnderLoadsAndDisplacements) {
   }
 }
 
-// Held under one displacement: s^-4 = s_0^-4 + 4 E A t.
-TEST(CreepBenchmarks, heldBarIsThatOfTheClosedForm) {
-  Conditions conditions{
-      {{left, alongX, constant(0)},
-       {bottom, alongY, constant(0)},
-       {right, alongX, [](double, double, double t) { return 1e-3 * side * std::min(1.0, t / applied); }}},
-      {},
-      {}};
-  Model model;
-  model.bodies.emplace_back("square", crissCrossMesh({.lower = {0, 0}, .upper = {side, side}}),
-                            nortonMaterial(steel, creep, Plane::stress), conditions);
-  State state = initialState(model);
-  march(model, state, {.end = applied, .steps = 1}, {}, [](const State&, const StepReport&) {});
-  MarchMemory memory;
-  memory.begin = state.time;
-  const RunReport run =
-      march(model, state, memory, {.end = hours, .steps = 10, .scheme = Scheme::sdirk2, .tolerance = 1e-3},
-            {}, [](const State&, const StepReport&) {});
-  ASSERT_EQ(run.status, Status::converged) << run.reason;
-  const double exact = std::pow(std::pow(200, -4.0) + 4 * steel.young * factor * hours, -0.25);
-  const double stress = toCartesian(state.bodies[0].stress.col(0).head<3>())[0];
-  std::cout << "stress " << stress << ", exact " << exact << "\n";
-  EXPECT_NEAR(stress, exact, 0.01 * exact);
-}
-
 // Bent at a steady rate its strain rate is rate y, and the stress (rate |y|/A)^(1/n).
 TEST(CreepBenchmarks, bentBeamTendsToTheSteadyStresses) {
   constexpr double rate = 1e-5;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include <numbers>
 
 #include "material/deviatoric.h"
 #include "theory/scenes.h"
@@ -94,51 +93,6 @@ TEST(LimitLoads, plateWithAHoleInPlaneStress) {
     found.push_back(forces.last);
   }
   expectLimit("plate with a hole", 1 - a, h, found, 0.9, 5e-3);
-}
-
-// A rigid smooth punch of half width 1: (2 + pi) sigma_Y/sqrt3 in plane strain.
-Forces punch(int cells, Cut cut) {
-  constexpr int under = 5;
-  TriangleMesh mesh =
-      rectangleMesh({.lower = {0, -2}, .upper = {4, 0}, .cellsX = 4 * cells, .cellsY = 2 * cells}, cut);
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    const auto [i, j] = mesh.boundaryEdges[e];
-    const Point middle = (mesh.vertices[i] + mesh.vertices[j]) / 2;
-    if (mesh.boundaryLabels[e] == top && middle.x() < 1) mesh.boundaryLabels[e] = under;
-  }
-  Model model;
-  model.bodies.emplace_back("ground", std::move(mesh), perzynaMaterial(stiff, slow, Plane::strain),
-                            Conditions{{{left, alongX, constant(0)},
-                                        {right, alongX, constant(0)},
-                                        {bottom, alongX, constant(0)},
-                                        {bottom, alongY, constant(0)},
-                                        {under, alongY, [](double, double, double t) { return -0.1 * t; }}},
-                                       {},
-                                       {}});
-  return forceOn(model, under, 8);
-}
-
-TEST(LimitLoads, prandtlsPunchInPlaneStrain) {
-  const double exact = (2 + std::numbers::pi) / std::numbers::sqrt3;
-  std::vector<double> h;
-  std::vector<double> found;
-  for (const int cells : {4, 8, 16}) {
-    const Forces forces = punch(cells, Cut::both);
-    EXPECT_NEAR(forces.before / forces.last, 1, 2e-3);
-    h.push_back(1.0 / cells);
-    found.push_back(-forces.last);
-  }
-  expectLimit("punch", exact, h, found, 0.9, 2.5e-2);
-}
-
-// One diagonal a cell leaves too few motions that keep the volume: such meshes lock, and their force goes on
-// growing.
-TEST(LimitLoads, oneDiagonalACellLocks) {
-  const Forces both = punch(8, Cut::both);
-  const Forces rising = punch(8, Cut::rising);
-  std::cout << "punch, one diagonal a cell over both: " << rising.last / both.last << ", still growing by "
-            << rising.last / rising.before - 1 << " a step\n";
-  EXPECT_GE(rising.last / both.last, 1.15);
 }
 
 }  // namespace mortier::limit_loads_test

@@ -72,6 +72,8 @@ TEST(PenaltyDuality, interpolationGivesNewtonsAnswerWhereBodiesFlow) {
   for (const Projection projection : allProjections)
     for (const int nonmortar : {upperBody, lowerBody})
       expectSameAsNewton(note(projection, CouplingKind::interpolation, nonmortar), 4);
+  const auto strain = perzynaMaterial({100, 0.3}, {1, 1}, Plane::strain);
+  expectSameAsNewton(compression(3, 5, strain, CouplingKind::interpolation, upperBody), 5);
 }
 
 // theta e = 1e4: steps in which one part flows and another does not.

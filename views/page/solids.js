@@ -9,9 +9,8 @@ function lengthOf(run, body, name) {
 }
 async function loadMesh(body) {
   const {vertices: n, middles: m, triangles: t, tetrahedra: e, touching: k} = body;
-  const a = arrays(
-      await unpack(body.mesh.d), body.mesh.f, [n, n, n, m, m, m, t, t, t, t, e, e, e, e, n]);
-  body.contactNodes = arrays(await unpack(body.contact.d), body.contact.f, [k])[0].q;
+  const a = await arrays(body.mesh, [n, n, n, m, m, m, t, t, t, t, e, e, e, e, n]);
+  body.contactNodes = (await arrays(body.contact, [k]))[0].q;
   const corners = new Int32Array(3 * t), cells = new Int32Array(4 * e), q = i => a[i].q;
   for (let i = 0; i < t; i++) {
     corners[3 * i] = q(6)[i]; corners[3 * i + 1] = q(6)[i] + q(7)[i]; corners[3 * i + 2] = q(6)[i] + q(8)[i];

@@ -53,7 +53,7 @@ function valueOf(fields, name, i) {  // a number with the decimals that it has
 const lengthOf = (run, body, name) => fieldOf(run, name).vertex ? body.vertices : body.triangles;
 async function loadMesh(body) {
   const {vertices: nv, triangles: nt, edges: ne} = body;
-  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
+  const a = await arrays(body.mesh, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
   const t = new Int32Array(3 * nt);
   for (let i = 0; i < nt; i++) {
     t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
