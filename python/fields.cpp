@@ -92,23 +92,20 @@ void bindFields(py::module_& module) {
     step.def_property_readonly(name, byBodies(std::move(array)));
   };
   field("points", [=](Step& of, size_t b, py::handle self) {
-    const Body& body = bodyAt(of, b);
-    return body.space() != nullptr ? placesOf(body.space()->nodes().places, self)
-                                   : placesOf(body.elementNodes().places, self);
+    return bodyAt(of, b).withMesh(
+        [&](const auto&, const auto& nodes) { return placesOf(nodes.places, self); });
   });
   field("triangles", [=](Step& of, size_t b, py::handle self) {
     const ElementNodes& nodes = bodyAt(of, b).elementNodes();
-    return cellNodes(nodes.triangles, nodes.perTriangle(), self);
+    return cellNodes(nodes.elements, nodes.perElement(), self);
   });
   field("tetrahedra", [=](Step& of, size_t b, py::handle self) {
     const SpaceElements* space = bodyAt(of, b).space();
     if (space == nullptr) throw py::attribute_error("tetrahedra: none in the plane");
     return cellNodes(space->nodes().elements, space->nodes().perElement(), self);
   });
-  field("regions", [=](Step& of, size_t b, py::handle self) {
-    const Body& body = bodyAt(of, b);
-    return column(body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions, self);
-  });
+  field("regions",
+        [=](Step& of, size_t b, py::handle self) { return column(bodyAt(of, b).regions(), self); });
   field("displacement", [](Step& of, size_t b, py::handle self) {
     of.moved.resize(of.state.bodies.size());
     Vector& u = of.moved[b];

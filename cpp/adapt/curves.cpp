@@ -10,6 +10,7 @@
 #include "adapt/adapted_meshes.h"
 #include "contact/boundary_surface.h"
 #include "contact/smooth_part.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -125,7 +126,7 @@ namespace {
 std::map<std::array<int, 3>, int> surfacesByTriangles(const BoundaryGeometry& geometry) {
   std::map<std::array<int, 3>, int> surfaces;
   for (size_t i = 0; i < geometry.triangles.size() && geometry.surfaces != nullptr; ++i)
-    surfaces[sortedTriangle(geometry.triangles[i])] = geometry.numbers[i];
+    surfaces[sideOf(geometry.triangles[i])] = geometry.numbers[i];
   return surfaces;
 }
 
@@ -179,7 +180,7 @@ CurvedFaces curvesBehind(const TetrahedronMesh& mesh) {
   CurvedFaces curved{surface.triangles, surface.parts, {}, mesh.geometry.surfaces};
   bool plane = true;
   for (size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto known = surfaces.find(sortedTriangle(surface.triangles[t]));
+    const auto known = surfaces.find(sideOf(surface.triangles[t]));
     if (known != surfaces.end()) {
       curved.parts[t] = partOfSurface(known->second);
       plane = plane && curved.geometry->isPlane(known->second);

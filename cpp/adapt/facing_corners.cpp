@@ -107,11 +107,11 @@ std::vector<char> longerThanFacing(const TriangleMesh& mesh, int label, const Tr
     double middle, length;
   };
   std::vector<Edge> facing;
-  for (const auto& [a, b] : edgesOn(other, otherLabel))
+  for (const auto& [a, b] : sidesWith(other, otherLabel))
     facing.push_back({line.along((other.vertices[a] + other.vertices[b]) / 2),
                       (other.vertices[b] - other.vertices[a]).norm()});
   std::set<std::array<int, 2>> longer;
-  for (const auto& [a, b] : edgesOn(mesh, label)) {
+  for (const auto& [a, b] : sidesWith(mesh, label)) {
     const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
     const double middle = line.along((mesh.vertices[a] + mesh.vertices[b]) / 2);
     for (const Edge& each : facing)

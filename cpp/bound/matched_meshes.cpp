@@ -200,7 +200,8 @@ class Cutter {
 /// The row of C at a vertex of the nonmortar line, by the direction of contact at a corner; -1 for none.
 int rowAt(const ContactInterface& interface, int vertex, const Point& normal) {
   for (int row = 0; row < interface.rows(); ++row)
-    if (interface.nonmortarNodes()[row] == vertex && interface.normals()[row].dot(normal) > 1 - samePoint)
+    if (interface.nonmortarNodes()[row] == vertex &&
+        interface.normals()[row].head<2>().dot(normal) > 1 - samePoint)
       return row;
   return -1;
 }

@@ -24,7 +24,8 @@ void matchResultants(const ContactInterface& interface, const TriangleMesh& mesh
   };
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
   for (int row = 0; row < interface.rows(); ++row)
-    left += resultant(placeOf(interface.nonmortarNodes()[row]), forces[row] * interface.normals()[row]);
+    left +=
+        resultant(placeOf(interface.nonmortarNodes()[row]), forces[row] * interface.normals()[row].head<2>());
   const double size = left.norm();
   Eigen::Matrix<double, 3, 2> M = Eigen::Matrix<double, 3, 2>::Zero();
   for (const MatchedPiece* piece : pieces)

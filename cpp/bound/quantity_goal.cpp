@@ -142,7 +142,7 @@ Goal goalOf(const Admissible& pair, const Quantity& quantity, BoundSide side) {
     goal.loads[quantity.body] = pushed.load();
   } else {
     double length = 0;
-    for (const auto& [a, b] : edgesOn(body.mesh(), quantity.label))
+    for (const auto& [a, b] : sidesWith(body.mesh(), quantity.label))
       length += (body.mesh().vertices[b] - body.mesh().vertices[a]).norm();
     goal.traction = directionAt(quantity, Point::Zero()) / length;
     LoadedBody pulled = body.unloaded(goal.held[quantity.body]);

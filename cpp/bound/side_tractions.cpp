@@ -5,7 +5,7 @@
 #include "base/dense_templates.h"
 #include "bound/composite_triangle.h"
 #include "material/stress.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -166,20 +166,20 @@ void takeForces(const TriangleMesh& mesh, int triangle, const Stress& stress, Ve
 }
 
 Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) {
-  const TriangleSides all = sortedSides(mesh);
+  const ElementSides<2> all = sortedSides(mesh);
   sides_.reserve(all.size() / 2 + mesh.boundaryEdges.size());
   std::vector<std::array<int, 2>> atVertices;
-  forEachEdge(all, [&](std::span<const TriangleSide> on) {
-    const auto& v = mesh.triangles[on[0].triangle()];
+  forEachPlace(all, [&](std::span<const ElementSide<2>> on) {
+    const auto& v = mesh.triangles[on[0].element()];
     const int k = on[0].corner();
-    Side& side = sides_.emplace_back(Side{{v[k], v[(k + 1) % 3]}, {on[0].triangle(), -1}, -1});
-    if (on.size() > 1) side.triangles[1] = on[1].triangle();
+    Side& side = sides_.emplace_back(Side{{v[k], v[(k + 1) % 3]}, {on[0].element(), -1}, -1});
+    if (on.size() > 1) side.triangles[1] = on[1].element();
     for (const int vertex : side.vertices) atVertices.push_back({vertex, count() - 1});
-    for (const TriangleSide& each : on)
+    for (const ElementSide<2>& each : on)
       ofTriangle_[each.place] = 2 * (count() - 1) + (&each != &on[0] ? 1 : 0);
   });
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    const auto on = sidesOn(all, mesh.boundaryEdges[e][0], mesh.boundaryEdges[e][1]);
+    const auto on = sidesOn(all, mesh.boundaryEdges[e]);
     if (!on.empty()) sides_[ofTriangle_[on[0].place] >> 1].boundary = static_cast<int>(e);
   }
   listByVertex(mesh.vertices.size(), atVertices, sideStart_, sidesAt_);

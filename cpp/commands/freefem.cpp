@@ -87,12 +87,17 @@ std::string ofContacts(const SceneDescription& scene,
   return list;
 }
 
+/// A list of 0 and 1 of every interface under a macro; nothing where all are 0.
+std::string flags(const std::string& list, const std::string& macro, const std::string& name) {
+  if (list.find('1') == std::string::npos) return "";
+  return "macro " + macro + "\nint[int] " + name + " = [" + list + "];\n";
+}
+
 /// Of every interface; none where there is no friction and no tie.
 std::string friction(const SceneDescription& scene) {
-  const std::string tied = ofContacts(scene, [](const auto& contact) { return contact.tied ? "1" : "0"; });
-  const std::string ties = tied.find('1') == std::string::npos
-                               ? ""
-                               : "macro anyTied yes //  sides move as one\nint[int] tied = [" + tied + "];\n";
+  const std::string ties =
+      flags(ofContacts(scene, [](const auto& contact) { return contact.tied ? "1" : "0"; }),
+            "anyTied yes //  sides move as one", "tied");
   if (!hasFriction(scene)) return ties;
   return ties +
          "macro rough yes //  friction of each: Coulomb's coefficient, Tresca's limit\nreal[int] friction = "
@@ -104,18 +109,14 @@ std::string friction(const SceneDescription& scene) {
 
 /// Of every interface, whether contact follows the bodies; none where it does nowhere.
 std::string sliding(const SceneDescription& scene) {
-  const std::string list = ofContacts(
-      scene, [](const auto& contact) { return contact.sliding == SlidingKind::finite ? "1" : "0"; });
-  if (list.find('1') == std::string::npos) return "";
-  return "macro sliding yes //  contact follows the bodies\nint[int] slidesFar = [" + list + "];\n";
+  const auto follows = [](const auto& contact) { return contact.sliding == SlidingKind::finite ? "1" : "0"; };
+  return flags(ofContacts(scene, follows), "sliding yes //  contact follows the bodies", "slidesFar");
 }
 
 /// Of every interface, whether its conditions are stabilised; none where they are nowhere.
 std::string stabilised(const SceneDescription& scene) {
-  const std::string list =
-      ofContacts(scene, [](const auto& contact) { return contact.stabilised ? "1" : "0"; });
-  if (list.find('1') == std::string::npos) return "";
-  return "macro anyStabilised yes //  conditions yield\nint[int] stabilised = [" + list + "];\n";
+  return flags(ofContacts(scene, [](const auto& contact) { return contact.stabilised ? "1" : "0"; }),
+               "anyStabilised yes //  conditions yield", "stabilised");
 }
 
 /// Of every interface, whether the mortar line is made of several straight sides; none where no one is.
@@ -129,9 +130,7 @@ std::string polygons(const Model& model) {
         std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.straight; });
     list += (list.empty() ? "" : ", ") + std::string(straight && parts.size() > 1 ? "1" : "0");
   }
-  if (list.find('1') == std::string::npos) return "";
-  return "macro straightSides yes //  no circle is behind the mortar line\nint[int] polygons = [" + list +
-         "];\n";
+  return flags(list, "straightSides yes //  no circle is behind the mortar line", "polygons");
 }
 
 /// One word where all interfaces have the same.
@@ -309,17 +308,14 @@ int writeFreefem(const FreefemOptions& command) {
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodyDescription& body = scene.bodies[b];
     meshFiles.push_back(body.mesh.path);
-    if (scene.inSpace() ? isReadByFreefem(body.mesh, model.bodies[b].space()->mesh())
-                        : isReadByFreefem(body.mesh, model.bodies[b].mesh()))
+    if (model.bodies[b].withMesh(
+            [&](const auto& mesh, const auto&) { return isReadByFreefem(body.mesh, mesh); }))
       continue;
     if (command.file.empty())
       throw InputError(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh.path +
                        ", expected a file for the script, beside which the mesh is written for FreeFEM");
     meshFiles.back() = (fs::path(command.file).replace_extension() += "-" + body.name + ".mesh").string();
-    if (scene.inSpace())
-      writeMedit(model.bodies[b].space()->mesh(), meshFiles.back());
-    else
-      writeMedit(model.bodies[b].mesh(), meshFiles.back());
+    model.bodies[b].withMesh([&](const auto& mesh, const auto&) { writeMedit(mesh, meshFiles.back()); });
   }
 
   // 3. The script.

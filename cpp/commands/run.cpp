@@ -34,9 +34,10 @@ RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
   identity.settings = scene.settings;
   identity.text = scene.text;
   for (const Body& body : model.bodies) {
-    const SpaceElements* space = body.space();
-    identity.files.push_back("the mesh " + (space != nullptr ? space->mesh().name : body.mesh().name));
-    identity.fileHashes.push_back(space != nullptr ? hashOf(space->mesh()) : hashOf(body.mesh()));
+    body.withMesh([&](const auto& mesh, const auto&) {
+      identity.files.push_back("the mesh " + mesh.name);
+      identity.fileHashes.push_back(hashOf(mesh));
+    });
   }
   for (const BodyDescription& body : scene.bodies) {
     if (!body.temperature || body.temperature->file.empty()) continue;
@@ -51,12 +52,10 @@ RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
 
 /// The law of a triangle or a tetrahedron.
 std::string lawOf(const BodyDescription& description, const Body& body, int triangle) {
-  const std::vector<int>& regions =
-      body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions;
   size_t index = 0;  // of the body's laws; the first is that of the triangles in regions without a law
   size_t next = 0;
   for (const RegionDescription& region : description.regions)
-    if (region.material && (++next, region.label == regions[triangle])) index = next;
+    if (region.material && (++next, region.label == body.regions()[triangle])) index = next;
   const std::vector<LawDescription> laws = body.material().laws();
   return laws[index].text();
 }
@@ -67,7 +66,7 @@ std::string whereToLook(const Attempt& attempt) {
   if (!stuck) return "";
   const Body& body = attempt.model->bodies[stuck->body];
   const std::string& driving = attempt.facts.driving;
-  const bool space = body.space() != nullptr;
+  const bool space = body.dimension() == 3;
   return "; largest residual of the law, " +
          lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) + ": body " + body.name() +
          " at " + placeText(stuck->at, body.dimension()) + (space ? ", tetrahedron " : ", triangle ") +
@@ -206,7 +205,7 @@ void Run::putInPlace() {
   if (rounds_)
     for (const Body& body : attempt_->model->bodies)
       write(body.name() + ".mesh",
-            body.space() != nullptr ? meditText(body.space()->mesh()) : meditText(body.mesh()));
+            body.withMesh([](const auto& mesh, const auto&) { return meditText(mesh); }));
   write("summary.json", summary_);
   placed_ = folder_->commit(manifest);
 }

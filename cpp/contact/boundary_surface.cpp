@@ -20,15 +20,10 @@ double angleBetween(const SpacePoint& a, const SpacePoint& b) {
 /// The labelled triangles of a mesh, then those of its boundary without a label.
 std::vector<std::array<int, 3>> allTriangles(const TetrahedronMesh& mesh) {
   std::vector<std::array<int, 3>> all = mesh.boundaryTriangles;
-  const auto sorted = [](std::array<int, 3> triangle) {
-    std::sort(triangle.begin(), triangle.end());
-    return triangle;
-  };
-  std::vector<std::array<int, 3>> labelled;
-  for (const auto& triangle : all) labelled.push_back(sorted(triangle));
-  std::sort(labelled.begin(), labelled.end());
-  for (const auto& triangle : outerTriangles(mesh))
-    if (!std::binary_search(labelled.begin(), labelled.end(), sorted(triangle))) all.push_back(triangle);
+  const std::vector<std::array<int, 3>> outer = outerTriangles(mesh);
+  const std::vector<int> labels = labelsOf(mesh, outer);
+  for (size_t i = 0; i < outer.size(); ++i)
+    if (labels[i] < 0) all.push_back(outer[i]);
   return all;
 }
 

@@ -100,7 +100,7 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
   const std::vector<char> facedBefore = std::move(faces_);
   const std::vector<ContactDirections> directionsBefore = std::exchange(directions_, {});
   faces_.assign(n, 0);
-  normals_.resize(n);
+  normals_.resize(n, SpacePoint(0, 0, 0));
   penetration_ = {};
   lengths_ = Vector::Zero(n);
   distanceHere_ = Vector::Constant(n, lines.apart);
@@ -113,7 +113,7 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows,
     directions_.push_back(facing.directions());
     for (int node = 0; node < part.traceNodes(); ++node)
       if (const auto row = rowOf.find(part.number(node)); row != rowOf.end())
-        normals_[row->second] = facing.directionAt(node);
+        normals_[row->second].head<2>() = facing.directionAt(node);
     if (facing.empty()) continue;
     std::vector<char> merged = lines.merged[k];
     mergeCorners(facing, corners, merged);

@@ -96,10 +96,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 
 ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh,
                                    const ContactMesh& mortarMesh, const InterfaceOptions& options)
-    : pair_(pair),
-      friction_(options.friction),
-      distanceIsGiven_(static_cast<bool>(options.gap)),
-      axisymmetric_(options.axisymmetric) {
+    : pair_(pair), friction_(options.friction), given_(options.gap), axisymmetric_(options.axisymmetric) {
   stabilised_ = options.stabilised;
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
@@ -153,6 +150,8 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
   std::vector<double> distances;
   std::vector<double> lengths;
   std::vector<int> corners;
+  const auto placeOf = [&](int node) { return asSpacePoint(nonmortarMesh.nodes.places[node]); };
+  const auto givenOf = [&](int node) { return given_(placeOf(node), 0); };
   for (const CommonRefinement& refinement : facing) {
     if (refinement.empty()) continue;
     const SmoothPart& part = refinement.part();
@@ -164,8 +163,7 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
         return options.initial == InitialGap::close ? 0.0 : distanceOfCurves(element, s, pair);
       const EdgeNodes nodes = part.nodesOf(element);
       double gap = 0;
-      for (Eigen::Index j = 0; j < nodes.size(); ++j)
-        gap += pair.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
+      for (Eigen::Index j = 0; j < nodes.size(); ++j) gap += pair.phi[j] * givenOf(part.number(nodes[j]));
       return gap;
     };
     Coupling coupling =
@@ -173,8 +171,7 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
                {options.stabilised, options.mortarCompliance, merged, symmetricEnds(refinement, options)});
     if (options.gap) {  // it holds at the nodes
       Vector given(part.traceNodes());
-      for (int j = 0; j < part.traceNodes(); ++j)
-        given[j] = options.gap(nonmortarMesh.nodes.places[part.number(j)]);
+      for (int j = 0; j < part.traceNodes(); ++j) given[j] = givenOf(part.number(j));
       coupling.distance = coupling.N * given;
     }
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
@@ -183,7 +180,7 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
     entries.add(coupling, refinement, rowOf);
     for (const int node : coupling.nodes) {
       nonmortarNodes_.push_back(part.number(node));
-      normals_.push_back(refinement.directionAt(node));
+      normals_.push_back(asSpacePoint(refinement.directionAt(node)));
     }
     overlap_ += refinement.length();
     distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
@@ -191,14 +188,12 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
       sagitta_ = std::max(sagitta_, unknownSagitta(refinement));
     penetration_.add(refinement, distance, axisymmetric_);
     lengths.insert(lengths.end(), coupling.lengths.begin(), coupling.lengths.end());
-    if (!options.gapInTime) continue;
+    if (!distanceMoves()) continue;
     forEachEntry(coupling.N, [&](int row, int node, double value) {
       entries.given.emplace_back(firstRow + row, part.number(node), value);
     });
-    for (int j = 0; j < part.traceNodes(); ++j) {
-      const Point& place = nonmortarMesh.nodes.places[part.number(j)];
-      gapNodes_.emplace_back(part.number(j), SpacePoint(place.x(), place.y(), 0));
-    }
+    for (int j = 0; j < part.traceNodes(); ++j)
+      gapNodes_.emplace_back(part.number(j), placeOf(part.number(j)));
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
   C1_.resize(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
@@ -206,11 +201,7 @@ void ContactInterface::assemble(const std::vector<CommonRefinement>& facing, con
   setRows(entries);
   distance_ = Eigen::Map<const Vector>(distances.data(), n);
   lengths_ = Eigen::Map<const Vector>(lengths.data(), n);
-  if (!options.gapInTime) return;
-  gapInTime_ = [gap = options.gapInTime](const SpacePoint& x, double t) {
-    return gap(Point(x.x(), x.y()), t);
-  };
-  N_ = assembled(n, nonmortarMesh.nodes.count(), entries.given);
+  if (distanceMoves()) N_ = assembled(n, nonmortarMesh.nodes.count(), entries.given);
 }
 
 void ContactInterface::Entries::add(const Coupling& coupling, const CommonRefinement& refinement,
@@ -251,10 +242,9 @@ void ContactInterface::setRows(const Entries& entries) {
   T2_ = turned(C2_);
 }
 
-Vector ContactInterface::nodalGap(double t) const {
-  if (!distanceMoves()) return {};
+Vector ContactInterface::givenAt(double t) const {
   Vector gap = Vector::Zero(N_.cols());
-  for (const auto& [node, place] : gapNodes_) gap[node] = gapInTime_(place, t);
+  for (const auto& [node, place] : gapNodes_) gap[node] = given_(place, t);
   return gap;
 }
 

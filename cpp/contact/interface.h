@@ -60,22 +60,24 @@ struct Friction {
 
 struct InterfaceOptions {
   InitialGap initial = InitialGap::asMeshed;  ///< of no effect where `gap` is given
-  std::function<double(const Point&)> gap =
-      {};  ///< distance at a nonmortar node instead of that as meshed [m]
-  /// The same where it changes in time; `gap` is then that of t = 0.
-  std::function<double(const Point&, double t)> gapInTime = {};
+  Datum gap = {};                             ///< distance at a nonmortar node instead of that as meshed [m]
   /// Whether the motion of a vertex along a direction is prescribed; none is where empty.
-  std::function<bool(int, const Point&)> nonmortarHeld = {};
-  std::function<bool(int, const Point&)> mortarHeld = {};
+  using Held = std::function<bool(int node, const SpacePoint& direction)>;
+  Held nonmortarHeld = {};
+  Held mortarHeld = {};
+  /// In space: unit vectors along which the displacement of a node is zero at all times, as in planes of
+  /// symmetry.
+  using Fixed = std::function<std::vector<SpacePoint>(int node)>;
+  Fixed nonmortarFixed = {};
+  Fixed mortarFixed = {};
   Friction friction = {};
   bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
   double stiffness = 1;       ///< of the nonmortar over that of the mortar body: where rows follow
-  /// Of the mortar body in a half-plane, 1/E or (1 - nu^2)/E; 0 where it is held [1/Pa].
+  /// Of the mortar body in a half-plane, 1/E or (1 - nu^2)/E, in space in a half-space, (1 - nu^2)/E; 0 where
+  /// it is held [1/Pa].
   double mortarCompliance = 0;
   bool stabilised = false;  ///< whether conditions are (Stabilisation)
   bool follows = false;     ///< whether rows follow the bodies (follow()); not with a `gap`
-  Datum gapInSpace = {};    ///< in place of `gap` and `gapInTime`
-  bool gapMoves = false;    ///< whether that changes in time
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero. Stored by
@@ -83,31 +85,13 @@ struct InterfaceOptions {
 using ConstraintRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A mesh and the nodes of displacements on it.
-struct ContactMesh {
-  const TriangleMesh& mesh;
-  const ElementNodes& nodes;
+template <class Mesh, class Nodes>
+struct MeshWithNodes {
+  const Mesh& mesh;
+  const Nodes& nodes;
 };
-
-struct SpaceContactMesh {
-  const TetrahedronMesh& mesh;
-  const SpaceNodes& nodes;
-};
-
-struct SpaceInterfaceOptions {
-  InitialGap initial = InitialGap::asMeshed;
-  using Held = std::function<bool(int node, const SpacePoint& direction)>;
-  Held nonmortarHeld = {};
-  Held mortarHeld = {};
-  Datum gap = {};  ///< distance at a nonmortar node instead of that as meshed [m]
-  bool gapMoves = false;
-  double mortarCompliance = 0;  ///< of the mortar body in a half-space, (1 - nu^2)/E [1/Pa]
-  bool stabilised = false;
-  Friction friction = {};
-  /// Unit vectors along which the displacement of a node is zero at all times, as in planes of symmetry.
-  using Fixed = std::function<std::vector<SpacePoint>(int node)>;
-  Fixed nonmortarFixed = {};
-  Fixed mortarFixed = {};
-};
+using ContactMesh = MeshWithNodes<TriangleMesh, ElementNodes>;
+using SpaceContactMesh = MeshWithNodes<TetrahedronMesh, SpaceNodes>;
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
 struct MortarMotion {
@@ -117,16 +101,15 @@ struct MortarMotion {
 
 class ContactInterface {
  public:
-  /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths
-  /// are areas. \throws InputError
-  static ContactInterface inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
-                                  const SpaceContactMesh& mortarMesh,
-                                  const SpaceInterfaceOptions& options = {});
   /// \throws InputError when the lines do not face each other, overlap nowhere, or are not as far from each
   /// other as the options allow.
   ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                    const InterfaceOptions& options = {});
-  /// The same for linear displacements.
+  /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths
+  /// are areas. \throws InputError
+  ContactInterface(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
+                   const SpaceContactMesh& mortarMesh, const InterfaceOptions& options = {});
+  /// The first for linear displacements.
   ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
                    const InterfaceOptions& options = {});
 
@@ -154,21 +137,19 @@ class ContactInterface {
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
   /// Numbers of the nodes of the mortar line, the vertices first.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
-  /// Direction of contact at the node of each row, out of the nonmortar body.
-  [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
-  [[nodiscard]] const std::vector<SpacePoint>& spaceNormals() const { return spaceNormals_; }
+  /// Direction of contact at the node of each row, out of the nonmortar body; z = 0 in the plane.
+  [[nodiscard]] const std::vector<SpacePoint>& normals() const { return normals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 at t = 0 [m]
   /// Whether g0 changes in time.
-  [[nodiscard]] bool distanceMoves() const { return static_cast<bool>(gapInTime_); }
+  [[nodiscard]] bool distanceMoves() const { return given_ && given_.inTime; }
   /// g0 at a time [m].
   [[nodiscard]] Vector distance(double t) const;
   /// Whether a distance is given in place of that as meshed.
-  [[nodiscard]] bool distanceIsGiven() const { return distanceIsGiven_; }
-  /// That distance as it was written; empty where none is.
+  [[nodiscard]] bool distanceIsGiven() const { return static_cast<bool>(given_); }
+  /// That distance; empty where none is.
   [[nodiscard]] const Datum& given() const { return given_; }
-  void setGiven(Datum distance) { given_ = std::move(distance); }
   [[nodiscard]] const Friction& friction() const { return friction_; }
   /// Whether there is friction. Then every row i of C has slipComponents() rows for the slip T u, with the
   /// same weights. In the plane it is row i of T, along n turned by +90 degrees: the direction of the
@@ -267,12 +248,13 @@ class ContactInterface {
   [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
  private:
-  ContactInterface() = default;
   [[nodiscard]] Vector nodalPressure(const Vector& p) const;
   /// Takes distances that are rounding for zero, and refuses those that the options do not allow.
   void settleDistance(InitialGap initial, double shorter, const std::string& names);
-  /// What is given at a time at the nodes of the nonmortar line, by node; empty where it does not change.
-  [[nodiscard]] Vector nodalGap(double t) const;
+  /// What is given at a time at the nodes of the nonmortar side, by node.
+  [[nodiscard]] Vector givenAt(double t) const;
+  /// The same; empty where it does not change.
+  [[nodiscard]] Vector nodalGap(double t) const { return distanceMoves() ? givenAt(t) : Vector(); }
   /// What an interface that follows is made of (follow.cpp).
   struct Lines;
   /// Matrices while they are put together.
@@ -291,8 +273,7 @@ class ContactInterface {
   ContactPair pair_;
   std::vector<int> nonmortarNodes_;
   std::vector<int> mortarNodes_;
-  std::vector<Point> normals_;
-  std::vector<SpacePoint> spaceNormals_;
+  std::vector<SpacePoint> normals_;
   std::vector<std::array<SpacePoint, 2>> tangents_;
   ConstraintRows C1_;
   ConstraintRows C2_;
@@ -308,9 +289,7 @@ class ContactInterface {
   Eigen::SparseMatrix<double> ends_;  ///< T of end_rows.h; empty where it is the identity
   Vector mortarSpacing_;
   Vector distance_;
-  bool distanceIsGiven_ = false;
   Datum given_;
-  Datum gapInTime_;
   std::vector<std::pair<int, SpacePoint>> gapNodes_;  ///< where it is given, with their places
   Eigen::SparseMatrix<double> N_;                     ///< g0 = N times what is given by node
   bool axisymmetric_ = false;

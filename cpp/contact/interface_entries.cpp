@@ -17,7 +17,7 @@ std::vector<char> mergedNodes(const CommonRefinement& refinement, CouplingKind k
   const SmoothPart& part = refinement.part();
   std::vector<char> merged(part.nodes.size(), 0);
   if (!options.nonmortarHeld || part.closed || rowDegree(kind, part.degree()) < part.degree()) return merged;
-  const auto direction = [&](int i) { return refinement.directionAt(i); };
+  const auto direction = [&](int i) { return asSpacePoint(refinement.directionAt(i)); };
   const auto held = [&](int i) { return options.nonmortarHeld(part.nodes[i], direction(i)); };
   const auto facingHeld = [&](int i) {
     if (refinement.segments().empty() || !options.mortarHeld) return false;
@@ -42,7 +42,7 @@ std::vector<char> symmetricEnds(const CommonRefinement& refinement, const Interf
   for (const int end : {0, part.elements()}) {
     const Point n = refinement.directionAt(end);
     const bool onAxis = options.axisymmetric && std::abs(part.points[end].x()) <= onTheAxis * part.length();
-    const bool held = options.nonmortarHeld && options.nonmortarHeld(part.nodes[end], Point(-n.y(), n.x()));
+    const bool held = options.nonmortarHeld && options.nonmortarHeld(part.nodes[end], {-n.y(), n.x(), 0});
     symmetric[end] = held || onAxis ? 1 : 0;
   }
   return symmetric;

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -150,9 +150,9 @@ BodyOutline outlineOf(const TriangleMesh& mesh, const ElementNodes& nodes) {
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
     labels[mesh.boundaryEdges[e]] = mesh.boundaryLabels[e];
   std::vector<OutlineSide> found;
-  forEachEdge(sortedSides(mesh), [&](const auto& sides) {
+  forEachPlace(sortedSides(mesh), [&](const auto& sides) {
     if (sides.size() != 1) return;
-    const int t = sides.front().triangle();
+    const int t = sides.front().element();
     const int k = sides.front().corner();
     const std::array<int, 2> ends{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]};
     const auto label = labels.find(ends);

@@ -96,7 +96,7 @@ Sliding slidingOf(const ContactInterface& interface, const ContactMesh& nonmorta
         if (!isMiddle(mortar, node)) line.push_back(mortar.nodes.places[node]);
     const Polyline across(line);
     if (across.closed) continue;
-    const Point n = interface.normals()[row];
+    const Point n = interface.normals()[row].head<2>();
     const Point way = (slip[row] > 0 ? 1 : -1) * Point(-n.y(), n.x());
     const double past = by - across.room(place(row), n, way);
     if (!(past > edge && past > ofTheLine * across.s.back())) continue;

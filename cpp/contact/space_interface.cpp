@@ -48,9 +48,9 @@ Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRo
 
 }  // namespace
 
-ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
-                                           const SpaceContactMesh& mortarMesh,
-                                           const SpaceInterfaceOptions& options) {
+ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
+                                   const SpaceContactMesh& mortarMesh, const InterfaceOptions& options)
+    : dimension_(3), pair_(pair), friction_(options.friction), given_(options.gap) {
   ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   shareNormals(nonmortar, mortar);
@@ -58,10 +58,6 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   if (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1)
     throw InputError(names + ": in space variant = \"weighted\" is known, and for linear displacements " +
                      "\"mortar\" and \"interpolation\"");
-  ContactInterface result;
-  result.dimension_ = 3;
-  result.pair_ = pair;
-  result.friction_ = options.friction;
   const int slipRows = options.friction.any() ? 2 : 0;  // of a node
 
   const TriangleTree tree(mortar);
@@ -118,17 +114,17 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         across = across && options.mortarHeld &&
                  (std::abs(hit.mu[k]) < 1e-9 || options.mortarHeld(mortar.triangles[hit.triangle][k], n));
       if (across) {
-        ++result.heldEnds_;
+        ++heldEnds_;
         continue;
       }
     }
-    vertex.rows.emplace_back(static_cast<int>(result.nonmortarNodes_.size()), 1);
-    result.nonmortarNodes_.push_back(key.first);
-    result.spaceNormals_.push_back(n);
+    vertex.rows.emplace_back(static_cast<int>(nonmortarNodes_.size()), 1);
+    nonmortarNodes_.push_back(key.first);
+    normals_.push_back(n);
     if (slipRows > 0) {
       const std::vector<SpacePoint> fixed = fixedTangents(key.first, hit, n);
-      result.tangents_.push_back(fixed.empty() ? tangentsTo(n)
-                                               : std::array<SpacePoint, 2>{fixed[0], n.cross(fixed[0])});
+      tangents_.push_back(fixed.empty() ? tangentsTo(n)
+                                        : std::array<SpacePoint, 2>{fixed[0], n.cross(fixed[0])});
       for (size_t a = 0; a < 2; ++a) slips.push_back(a < fixed.size() ? 0 : 1);
     }
     hits.push_back(hit);
@@ -140,7 +136,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
                            opposite + ofNonmortar * ownSpacing.ofVertices(key.first)});
   }
   shareFunctions(vertices);
-  const auto rows = static_cast<Eigen::Index>(result.nonmortarNodes_.size());
+  const auto rows = static_cast<Eigen::Index>(nonmortarNodes_.size());
   if (refinement.facing.empty()) throw InputError(names + " do not face each other");
   if (rows == 0) refuseWithoutRows(names);
 
@@ -151,13 +147,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   Triplets slipMass, slipD, slipM;
   // The directions of slip of a row where the normal is n.
   const auto tangentAt = [&](Eigen::Index row, int a, const SpacePoint& n) {
-    return turnedWith(result.tangents_[row][a], result.spaceNormals_[row], n);
+    return turnedWith(tangents_[row][a], normals_[row], n);
   };
   const auto slipRow = [](int row, int a) { return 2 * row + a; };
   PointEntries points, nearestPoints;
   Vector distance = Vector::Zero(rows);
   Vector least = Vector::Constant(rows, infinity);
-  result.lengths_ = Vector::Zero(rows);
+  lengths_ = Vector::Zero(rows);
   std::vector<DistanceError> errors;
   const auto add = [](Triplets& entries, Eigen::Index row, int node, double value, const SpacePoint& n) {
     for (int c = 0; c < 3; ++c)
@@ -237,7 +233,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
     for (Eigen::Index i = 0; i < count; ++i) {
       const int row = own[i];
-      result.lengths_[row] += parts.row(i).dot(covered);
+      lengths_[row] += parts.row(i).dot(covered);
       distance[row] += parts.row(i).dot(apart);
       least[row] = std::min(least[row], nearest);
       const Eigen::RowVector3d products = parts.row(i) * hats;
@@ -246,13 +242,13 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         mass.emplace_back(row, own[j], entry);
         if (!projects) continue;
         // Of the difference from the motions of the rows' own vertices.
-        add(D, row, result.nonmortarNodes_[own[j]], -entry, result.spaceNormals_[own[j]]);
+        add(D, row, nonmortarNodes_[own[j]], -entry, normals_[own[j]]);
         for (int a = 0; a < slipRows; ++a) {
-          const SpacePoint there = tangentAt(row, a, result.spaceNormals_[own[j]]);
-          add(slipD, slipRow(row, a), result.nonmortarNodes_[own[j]], -entry, there);
+          const SpacePoint there = tangentAt(row, a, normals_[own[j]]);
+          add(slipD, slipRow(row, a), nonmortarNodes_[own[j]], -entry, there);
           for (int b = 0; b < slipRows; ++b)
             slipMass.emplace_back(slipRow(row, a), slipRow(own[j], b),
-                                  entry * there.dot(result.tangents_[own[j]][b]));
+                                  entry * there.dot(tangents_[own[j]][b]));
         }
       }
       const auto addJump = [&](Triplets& to1, Triplets& to2, int at, const SpacePoint& along) {
@@ -266,44 +262,43 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     }
   }
   const std::array<int, 2> nodes{nonmortarMesh.nodes.count(), mortarMesh.nodes.count()};
-  result.points_ = points.assembled(nodes, rows);
-  result.nearest_ = nearestPoints.assembled(nodes, rows);
-  result.overlap_ = result.points_.areas.sum() / std::min(nonmortar.area, mortar.area);
+  points_ = points.assembled(nodes, rows);
+  nearest_ = nearestPoints.assembled(nodes, rows);
+  overlap_ = points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
   if (pair.coupling == CouplingKind::weighted) {
-    const Vector inverse = result.lengths_.cwiseInverse();  // products copy an expression for each column
-    result.mass_ = Eigen::SparseMatrix<double>(result.lengths_.asDiagonal());
-    result.weights_ = result.lengths_;
-    result.C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
-    result.C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
+    const Vector inverse = lengths_.cwiseInverse();  // products copy an expression for each column
+    mass_ = Eigen::SparseMatrix<double>(lengths_.asDiagonal());
+    weights_ = lengths_;
+    C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
+    C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
     const Vector ofSlips = inverse.transpose().replicate(slipRows, 1).reshaped();
-    result.T1_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns1, slipD);
-    result.T2_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns2, slipM);
-    result.distance_ = inverse.cwiseProduct(distance);
+    T1_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns1, slipD);
+    T2_ = ofSlips.asDiagonal() * assembled<ConstraintRows>(slipRows * rows, columns2, slipM);
+    distance_ = inverse.cwiseProduct(distance);
   } else {
-    result.mass_ = assembled(rows, rows, mass);
-    result.weights_ = result.mass_ * Vector::Ones(rows);
+    mass_ = assembled(rows, rows, mass);
+    weights_ = mass_ * Vector::Ones(rows);
     Triplets own, opposite, slipOwn, slipOpposite;
     for (int row = 0; row < rows; ++row) {
       const auto addNode = [&](Triplets& nonmortarRows, Triplets& mortarRows, int at,
                                const SpacePoint& along) {
-        add(nonmortarRows, at, result.nonmortarNodes_[row], 1, along);
+        add(nonmortarRows, at, nonmortarNodes_[row], 1, along);
         for (int k = 0; k < 3 && !projects; ++k)
           add(mortarRows, at, mortar.triangles[hits[row].triangle][k], -hits[row].mu[k], along);
       };
-      addNode(own, opposite, row, result.spaceNormals_[row]);
-      for (int a = 0; a < slipRows; ++a)
-        addNode(slipOwn, slipOpposite, slipRow(row, a), result.tangents_[row][a]);
+      addNode(own, opposite, row, normals_[row]);
+      for (int a = 0; a < slipRows; ++a) addNode(slipOwn, slipOpposite, slipRow(row, a), tangents_[row][a]);
     }
-    result.C1_ = assembled<ConstraintRows>(rows, columns1, own);
-    result.C2_ = assembled<ConstraintRows>(rows, columns2, opposite);
-    result.T1_ = assembled<ConstraintRows>(slipRows * rows, columns1, slipOwn);
-    result.T2_ = assembled<ConstraintRows>(slipRows * rows, columns2, slipOpposite);
-    result.distance_ = Eigen::Map<const Vector>(distances.data(), rows);
+    C1_ = assembled<ConstraintRows>(rows, columns1, own);
+    C2_ = assembled<ConstraintRows>(rows, columns2, opposite);
+    T1_ = assembled<ConstraintRows>(slipRows * rows, columns1, slipOwn);
+    T2_ = assembled<ConstraintRows>(slipRows * rows, columns2, slipOpposite);
+    distance_ = Eigen::Map<const Vector>(distances.data(), rows);
     if (!projects) {
       const Vector exact = assembled<ConstraintRows>(rows, columns2, M).transpose() * Vector::Ones(rows);
-      const Vector off = result.C2_.transpose() * result.weights_ - exact;
-      result.patchError_ = off.cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+      const Vector off = C2_.transpose() * weights_ - exact;
+      patchError_ = off.cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
     }
     if (projects) {
       using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
@@ -320,50 +315,46 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
         }
         return assembled<ConstraintRows>(factor.rows(), columns, all);
       };
-      const Factor factor(result.mass_);
-      result.C1_ += projected(factor, columns1, D);
-      result.C2_ = projected(factor, columns2, M);
+      const Factor factor(mass_);
+      C1_ += projected(factor, columns1, D);
+      C2_ = projected(factor, columns2, M);
       if (slipRows > 0) {
         const Factor ofSlips(assembled(slipRows * rows, slipRows * rows, slipMass));
-        result.T1_ += projected(ofSlips, columns1, slipD);
-        result.T2_ = projected(ofSlips, columns2, slipM);
+        T1_ += projected(ofSlips, columns1, slipD);
+        T2_ = projected(ofSlips, columns2, slipM);
       }
       // The projection of a convex distance may be below the least one where a row function is not 0.
       const Vector mean = factor.solve(distance);
-      result.distance_ = mean.cwiseMax(least.cwiseMin(result.distance_));
+      distance_ = mean.cwiseMax(least.cwiseMin(distance_));
     }
   }
-  for (ConstraintRows* T : {&result.T1_, &result.T2_}) {
+  for (ConstraintRows* T : {&T1_, &T2_}) {
     *T = Eigen::Map<const Vector>(slips.data(), T->rows()).asDiagonal() * *T;
     T->prune(0.0);
   }
   if (pair.coupling != CouplingKind::interpolation) {
-    PressureCompliance yielding = pressureCompliance(surfaceRows, result.lengths_, options.mortarCompliance);
-    result.stabilised_ = options.stabilised;
-    if (options.stabilised) result.compliance_ = std::move(yielding.S);
-    result.means_ = std::move(yielding.means);
-    result.fits_ = linearFits(surfaceRows, result.lengths_);
-    result.mortarSpacing_ = std::move(yielding.spacing);
+    PressureCompliance yielding = pressureCompliance(surfaceRows, lengths_, options.mortarCompliance);
+    stabilised_ = options.stabilised;
+    if (options.stabilised) compliance_ = std::move(yielding.S);
+    means_ = std::move(yielding.means);
+    fits_ = linearFits(surfaceRows, lengths_);
+    mortarSpacing_ = std::move(yielding.spacing);
   }
   std::set<int> mortarNodes;
   for (const auto& triangle : mortar.triangles)
     mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
-  result.mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
+  mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
   if (!options.gap) {
-    result.sagitta_ = visibleError(errors);
-    result.settleDistance(options.initial, reach, names);
-    return result;
+    sagitta_ = visibleError(errors);
+    settleDistance(options.initial, reach, names);
+    return;
   }
-  result.N_ = rowsOfDistance(pair.coupling, result.C1_, result.spaceNormals_, result.nonmortarNodes_);
+  N_ = rowsOfDistance(pair.coupling, C1_, normals_, nonmortarNodes_);
   for (int node = 0; node < nonmortarMesh.nodes.count(); ++node)
-    if (result.N_.col(node).nonZeros() > 0 || result.points_.traces[0].col(node).nonZeros() > 0)
-      result.gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
-  result.distanceIsGiven_ = static_cast<bool>(options.gap);
-  result.gapInTime_ = options.gap;
-  result.distance_ = result.distance(0);
-  result.points_.distances = result.pointDistances(0);
-  if (!options.gapMoves) result.gapInTime_ = {};
-  return result;
+    if (N_.col(node).nonZeros() > 0 || points_.traces[0].col(node).nonZeros() > 0)
+      gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
+  distance_ = N_ * givenAt(0);
+  points_.distances = points_.traces[0] * givenAt(0);
 }
 
 }  // namespace mortier

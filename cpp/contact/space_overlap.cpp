@@ -36,14 +36,8 @@ Eigen::Vector3d nearestOf(const SpacePoint& a, const SpacePoint& b, const SpaceP
 
 SpaceOutline outlineOf(const TetrahedronMesh& mesh, const SpaceNodes& nodes) {
   SpaceOutline outline;
-  std::map<std::array<int, 3>, int> labels;
-  const auto sorted = [](std::array<int, 3> triangle) {
-    std::sort(triangle.begin(), triangle.end());
-    return triangle;
-  };
-  for (size_t t = 0; t < mesh.boundaryTriangles.size(); ++t)
-    labels[sorted(mesh.boundaryTriangles[t])] = mesh.boundaryLabels[t];
   const std::vector<std::array<int, 3>> outer = outerTriangles(mesh);
+  const std::vector<int> labels = labelsOf(mesh, outer);
   std::vector<char> isOuter(mesh.vertices.size(), 0);
   for (const auto& triangle : outer)
     for (const int v : triangle) isOuter[v] = 1;
@@ -56,18 +50,16 @@ SpaceOutline outlineOf(const TetrahedronMesh& mesh, const SpaceNodes& nodes) {
       if (isOuter[first] != 0 && isOuter[second] != 0) middles[{first, second}] = nodes.of(e)[4 + k];
     }
   const auto middle = [&](int a, int b) { return middles.at({std::min(a, b), std::max(a, b)}); };
-  for (const auto& triangle : outer) {
-    const auto found = labels.find(sorted(triangle));
-    const int label = found == labels.end() ? 0 : found->second;
-    const auto [a, b, c] = triangle;
+  for (size_t t = 0; t < outer.size(); ++t) {
+    const auto [a, b, c] = outer[t];
     if (nodes.degree == 1) {
-      outline.triangles.push_back(triangle);
+      outline.triangles.push_back(outer[t]);
     } else {
       const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
       outline.triangles.insert(outline.triangles.end(),
                                {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
-    outline.labels.resize(outline.triangles.size(), label);
+    outline.labels.resize(outline.triangles.size(), std::max(0, labels[t]));
   }
   std::map<std::array<int, 2>, int> sideOf;
   for (size_t t = 0; t < outline.triangles.size(); ++t)

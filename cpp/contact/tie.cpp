@@ -141,7 +141,7 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
       const int b = across.nodes[segment.mortar + 1];
       const int triangle = behind.at(sideOf(std::array{a, b}));
       const std::span nodes(mortarMesh.nodes.of(static_cast<size_t>(triangle)),
-                            static_cast<size_t>(mortarMesh.nodes.perTriangle()));
+                            static_cast<size_t>(mortarMesh.nodes.perElement()));
       const double xi = facing.psi[1] + (facing.psi.size() > 2 ? facing.psi[2] / 2 : 0);
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
       for (int k = 0; k < 3; ++k) at[k] = nodes[k] == a ? 1 - xi : nodes[k] == b ? xi : 0;

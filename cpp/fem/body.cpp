@@ -5,18 +5,49 @@
 #include <set>
 
 #include "base/error.h"
-#include "fem/element.h"
+#include "fem/element_data.h"
 #include "mesh/boundary_line.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
 
-/// The places of the nodes of a triangle.
-template <class Element>
-std::array<Point, Element::nodes> placesOf(const ElementNodes& nodes, size_t triangle) {
-  std::array<Point, Element::nodes> x;
-  for (int a = 0; a < Element::nodes; ++a) x[a] = nodes.places[nodes.of(triangle)[a]];
-  return x;
+/// An element by the places of its nodes.
+template <class Element, class Nodes>
+auto tabulationOf(const Nodes& nodes, size_t element) {
+  std::array<typename decltype(nodes.places)::value_type, Element::nodes> x;
+  for (int a = 0; a < Element::nodes; ++a) x[a] = nodes.places[nodes.of(element)[a]];
+  if constexpr (std::is_same_v<Nodes, SpaceNodes>)
+    return tabulated<Element>(x);
+  else
+    return Element::tabulate(x);
+}
+
+/// Of a point of an element.
+template <class Element, class Nodes>
+auto placeIn(const Nodes& nodes, size_t element, int point) {
+  if constexpr (std::is_same_v<Nodes, SpaceNodes>) {
+    SpacePoint place = SpacePoint::Zero();
+    for (int k = 0; k < 4; ++k) place += Element::interior[point][k] * nodes.places[nodes.of(element)[k]];
+    return place;
+  } else {
+    return tabulationOf<Element>(nodes, element).places[point];
+  }
+}
+
+/// Places of the points of all elements of a degree.
+template <class Nodes>
+auto pointsOf(const Nodes& nodes, int degree) {
+  auto places = nodes.places;
+  places.clear();
+  withElementIn<dimensionOf<Nodes>>(degree, [&](auto element) {
+    using Element = decltype(element);
+    const size_t count = nodes.elements.size() / nodes.perElement();
+    places.reserve(Element::points * count);
+    for (size_t e = 0; e < count; ++e)
+      for (int i = 0; i < Element::points; ++i) places.push_back(placeIn<Element>(nodes, e, i));
+  });
+  return places;
 }
 
 Conditions withAxisHeld(Conditions conditions) {
@@ -61,33 +92,7 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     findMotions();
     return;
   }
-  withElement(degree, [&](auto element) {
-    using Element = decltype(element);
-    const size_t count = Element::points * mesh_.triangles.size();
-    weights_.reserve(count);
-    gradients_.reserve(2 * (Element::nodes - 1) * count);
-    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto table = Element::tabulate(placesOf<Element>(nodes_, t));
-      for (int i = 0; i < Element::points; ++i) {
-        if (axisymmetric_ && !(table.places[i].x() > 0))
-          throw InputError(mesh_.name + ": triangle " + std::to_string(t + 1) +
-                           " reaches over the axis by its curved side, expected a finer mesh there");
-        if (!(table.weights[i] > 0))
-          throw InputError(mesh_.name + ": triangle " + std::to_string(t + 1) +
-                           " is turned inside out by its curved side, expected a finer mesh there");
-        weights_.push_back(table.weights[i] * depthAt(table.places[i]));
-        if (axisymmetric_)
-          for (const double shape : Element::shapes(Element::interior[i]))
-            hoops_.push_back(shape / table.places[i].x());
-        largestGradient_ = std::max(largestGradient_, table.gradients[i].template lpNorm<Eigen::Infinity>());
-        for (size_t a = hoops_.size(); axisymmetric_ && a > hoops_.size() - Element::nodes; --a)
-          largestGradient_ = std::max(largestGradient_, std::abs(hoops_[a - 1]));
-        for (int a = 1; a < Element::nodes; ++a)
-          for (int c = 0; c < 2; ++c)
-            gradients_.push_back(table.gradients[i](c, a) * (std::numbers::sqrt2 / 2));
-      }
-    }
-  });
+  tabulate(nodes_, mesh_.name);
   if (averaged)
     patches_.emplace(volumePatches(mesh_, degree), nodes_, places(), weights_, gradients_, hoops_);
   findSteadyLoads();
@@ -96,39 +101,76 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
 Body::Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
            Conditions conditions, int degree, bool averaged)
     : name_(std::move(name)),
-      space_(std::make_shared<SpaceElements>(std::move(mesh), degree, averaged)),
+      space_(std::make_shared<SpaceElements>(std::move(mesh), degree)),
       material_(std::move(material)),
       conditions_(std::move(conditions)),
       supports_(space_->mesh(), space_->nodes(), conditions_.displacements),
-      weights_(space_->weights()),
-      largestGradient_(space_->largestGradient()),
       extent_(mortier::extent(space_->mesh())) {
   requirePlaces(space_->mesh(), name_, conditions_);
-  if (!rigid()) return;
-  weights_.clear();
-  findMotions();
+  if (rigid()) {
+    findMotions();
+    return;
+  }
+  tabulate(space_->nodes(), space_->mesh().name);
+  if (averaged) patches_.emplace(volumePatches(space_->mesh()), space_->nodes(), weights_, gradients_);
+}
+
+template <class Nodes>
+void Body::tabulate(const Nodes& nodes, const std::string& mesh) {
+  constexpr int dim = dimensionOf<Nodes>;
+  withElementIn<dim>(nodes.degree, [&](auto element) {
+    using Element = decltype(element);
+    const size_t count = nodes.elements.size() / Element::nodes;
+    weights_.reserve(Element::points * count);
+    gradients_.reserve(static_cast<size_t>(dim) * (Element::nodes - 1) * Element::points * count);
+    for (size_t e = 0; e < count; ++e) {
+      const auto table = tabulationOf<Element>(nodes, e);
+      for (int i = 0; i < Element::points; ++i) {
+        double weight = table.weights[i];
+        if constexpr (dim == 2) {
+          const auto refuse = [&](const char* what) {
+            throw InputError(mesh + ": triangle " + std::to_string(e + 1) + what +
+                             " by its curved side, expected a finer mesh there");
+          };
+          if (axisymmetric_ && !(table.places[i].x() > 0)) refuse(" reaches over the axis");
+          if (!(weight > 0)) refuse(" is turned inside out");
+          weight *= depthAt(table.places[i]);
+          for (const double shape : Element::shapes(Element::interior[i]))
+            if (axisymmetric_) hoops_.push_back(shape / table.places[i].x());
+        }
+        weights_.push_back(weight);
+        largestGradient_ = std::max(largestGradient_, table.gradients[i].template lpNorm<Eigen::Infinity>());
+        for (size_t a = hoops_.size(); axisymmetric_ && a > hoops_.size() - Element::nodes; --a)
+          largestGradient_ = std::max(largestGradient_, std::abs(hoops_[a - 1]));
+        for (int a = 1; a < Element::nodes; ++a)
+          for (int c = 0; c < dim; ++c)
+            gradients_.push_back(dim == 2 ? table.gradients[i](c, a) * overRoot2
+                                          : table.gradients[i](c, a) / std::numbers::sqrt2);
+      }
+    }
+  });
 }
 
 double Body::largestCoordinate() const {
-  double largest = 0;
-  for (const Point& x : mesh_.vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  if (space_)
-    for (const SpacePoint& x : space_->mesh().vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  return largest;
+  return withMesh([](const auto& mesh, const auto& /*nodes*/) {
+    double largest = 0;
+    for (const auto& x : mesh.vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    return largest;
+  });
 }
 
 SpacePoint Body::placeOfNode(int node) const {
-  if (space_) return space_->nodes().places[node];
-  return asSpacePoint(nodes_.places[node]);
+  return withMesh([&](const auto& /*mesh*/, const auto& nodes) { return asSpacePoint(nodes.places[node]); });
 }
 
 SpacePoint Body::centreOf(size_t element) const {
-  SpacePoint centre = SpacePoint::Zero();
-  if (space_)
-    for (const int v : space_->mesh().tetrahedra[element]) centre += space_->mesh().vertices[v] / 4;
-  else
-    for (const int v : mesh_.triangles[element]) centre.head<2>() += mesh_.vertices[v] / 3;
-  return centre;
+  return withMesh([&](const auto& mesh, const auto& /*nodes*/) {
+    SpacePoint centre = SpacePoint::Zero();
+    const auto& corners = elementsOf(mesh)[element];
+    for (const int v : corners)
+      centre += asSpacePoint(mesh.vertices[v]) / static_cast<double>(corners.size());
+    return centre;
+  });
 }
 
 std::vector<int> Body::boundaryNodes(std::optional<int> label) const {
@@ -147,29 +189,31 @@ std::vector<int> Body::boundaryNodes(std::optional<int> label) const {
 }
 
 SpacePoint Body::placeOfPoint(int point) const {
-  if (space_) return space_->placeOf(point);
-  return withElement(degree(), [&](auto element) -> SpacePoint {
-    using Element = decltype(element);
-    const auto data = Element::tabulate(placesOf<Element>(nodes_, point / Element::points));
-    return asSpacePoint(data.places[point % Element::points]);
+  return withMesh([&](const auto& /*mesh*/, const auto& nodes) {
+    return withElementIn<dimensionOf<decltype(nodes)>>(nodes.degree, [&](auto element) {
+      using Element = decltype(element);
+      return asSpacePoint(placeIn<Element>(nodes, point / Element::points, point % Element::points));
+    });
   });
 }
 
 int Body::pointsOfTriangle() const {
-  if (space_) return space_->pointsOfElement();
-  return withElement(degree(), [](auto element) { return decltype(element)::points; });
+  return withMesh([](const auto& /*mesh*/, const auto& nodes) {
+    return withElementIn<dimensionOf<decltype(nodes)>>(
+        nodes.degree, [](auto element) { return decltype(element)::points; });
+  });
 }
 
-std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes) {
-  std::vector<Point> places;
-  withElement(nodes.degree, [&](auto element) {
-    using Element = decltype(element);
-    places.reserve(Element::points * mesh.triangles.size());
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (const Point& place : Element::tabulate(placesOf<Element>(nodes, t)).places)
-        places.push_back(place);
-  });
-  return places;
+std::vector<Point> Body::places() const {
+  return pointsOf(nodes_, nodes_.degree);
+}
+
+std::vector<Point> placesOfPoints(const TriangleMesh& mesh, int degree) {
+  return pointsOf(elementNodes(mesh, degree), degree);
+}
+
+std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree) {
+  return pointsOf(spaceNodes(mesh, 1), degree);  // sides are straight
 }
 
 std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {

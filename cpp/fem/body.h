@@ -5,14 +5,15 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/two_part_vector.h"
 #include "base/types.h"
-#include "fem/space_elements.h"
 #include "fem/supports.h"
+#include "fem/volume_patches.h"
 #include "linear/condensing_solver.h"
 #include "material/material.h"
 #include "mesh/element_nodes.h"
@@ -59,11 +60,22 @@ struct Conditions {
   std::optional<RigidMotion> rigid = {};  ///< of a body that has no material, and none of the above
 };
 
-/// Places of the quadrature points of all triangles, one triangle after the other [m].
-std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes);
-inline std::vector<Point> placesOfPoints(const TriangleMesh& mesh, int degree) {
-  return placesOfPoints(mesh, elementNodes(mesh, degree));
-}
+/// Places of the quadrature points of all triangles or tetrahedra, one element after the other [m].
+std::vector<Point> placesOfPoints(const TriangleMesh& mesh, int degree);
+std::vector<SpacePoint> placesOfPoints(const TetrahedronMesh& mesh, int degree);
+
+/// The tetrahedra of a body in space, and the nodes of its displacements.
+class SpaceElements {
+ public:
+  SpaceElements(TetrahedronMesh mesh, int degree)
+      : mesh_(std::move(mesh)), nodes_(spaceNodes(mesh_, degree)) {}
+  [[nodiscard]] const TetrahedronMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const SpaceNodes& nodes() const { return nodes_; }
+
+ private:
+  TetrahedronMesh mesh_;
+  SpaceNodes nodes_;
+};
 
 class Body {
  public:
@@ -86,15 +98,32 @@ class Body {
   /// Its tetrahedra; null in the plane.
   [[nodiscard]] const SpaceElements* space() const { return space_.get(); }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  /// Calls work(mesh, nodes) with its triangles or its tetrahedra.
+  template <class Work>
+  decltype(auto) withMesh(const Work& work) const {
+    return space_ ? work(space_->mesh(), space_->nodes()) : work(mesh_, nodes_);
+  }
+  /// Of elements.
+  [[nodiscard]] const std::vector<int>& regions() const {
+    return withMesh([](const auto& mesh, const auto&) -> const std::vector<int>& { return mesh.regions; });
+  }
+  /// Nodes of all elements, one element after the other.
+  [[nodiscard]] const std::vector<int>& nodesOfElements() const {
+    return withMesh([](const auto&, const auto& nodes) -> const std::vector<int>& { return nodes.elements; });
+  }
+  [[nodiscard]] std::span<const int> nodesOf(size_t element) const {
+    const size_t count = nodesOfElements().size() / elements();
+    return {nodesOfElements().data() + count * element, count};
+  }
+  /// "triangles" or "tetrahedra".
+  [[nodiscard]] const char* elementsWord() const { return space_ ? "tetrahedra" : "triangles"; }
   [[nodiscard]] const Material& material() const { return *material_; }
   /// Nodes of the displacement: the vertices of the mesh, and what lies between them.
   [[nodiscard]] const ElementNodes& elementNodes() const { return nodes_; }
   [[nodiscard]] int degree() const { return space_ ? space_->nodes().degree : nodes_.degree; }
   [[nodiscard]] bool axisymmetric() const { return axisymmetric_; }
   /// Where the volumetric strain is averaged; null elsewhere.
-  [[nodiscard]] const VolumePatches* patches() const {
-    return space_ ? space_->patches() : patches_ ? &*patches_ : nullptr;
-  }
+  [[nodiscard]] const VolumePatches* patches() const { return patches_ ? &*patches_ : nullptr; }
   [[nodiscard]] int nodes() const { return space_ ? space_->nodes().count() : nodes_.count(); }
   [[nodiscard]] int dofs() const { return dimension() * nodes(); }
   /// Triangles or tetrahedra.
@@ -123,7 +152,7 @@ class Body {
   /// Nodes of the labelled boundary, or of one label, ascending.
   [[nodiscard]] std::vector<int> boundaryNodes(std::optional<int> label = {}) const;
   /// Places of the points of triangles [m].
-  [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
+  [[nodiscard]] std::vector<Point> places() const;
 
   // Equations (Supports).
 
@@ -217,6 +246,9 @@ class Body {
                Threads& threads = Threads::none()) const;
 
  private:
+  /// What the elements are at their points. \param mesh  its name
+  template <class Nodes>
+  void tabulate(const Nodes& nodes, const std::string& mesh);
   void findMotions();
   /// A rigid displacement (dofs) with prescribed components in place of its own. \param held  their values
   [[nodiscard]] Vector withHeld(const Vector& held, const Vector& displacement) const;
@@ -228,6 +260,8 @@ class Body {
   auto withElements(const Work& work) const;
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
+  void strainInSpace(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
+  void addStressInSpace(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
   template <class Element>
   void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   // Of data that do not change and the rule of the element does not integrate, or of all others.
@@ -247,7 +281,7 @@ class Body {
   Supports supports_;
   std::vector<double> weights_;
   std::vector<double>
-      gradients_;  ///< of all shape functions of a triangle but the first, over sqrt2, by points
+      gradients_;  ///< of all shape functions of an element but the first, over sqrt2, by points
   bool axisymmetric_ = false;
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   std::optional<VolumePatches> patches_;

@@ -18,7 +18,7 @@ namespace mortier {
 template <class Work>
 auto Body::withElements(const Work& work) const {
   if (!space_) return work(ElementData<2>{nodes_, weights_, gradients_, hoops_, patches()});
-  return work(ElementData<3>{space_->nodes(), weights_, space_->gradients(), hoops_, patches()});
+  return work(ElementData<3>{space_->nodes(), weights_, gradients_, hoops_, patches()});
 }
 
 Vector Body::internalForce(const Matrix& stress) const {
@@ -89,7 +89,11 @@ void Body::tangent(const Linearisation& law, std::vector<double>& values, Thread
 }
 
 void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
-  if (space_) return space_->strain(u, shift, strain, begin, end);
+  if (space_) {
+    strainInSpace(u, shift, strain, begin, end);
+    if (patches_) averageStrain(u, shift, strain, begin, end);
+    return;
+  }
   if (strain.rows() > 3 && shift == nullptr)
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
   if (strain.rows() > 3 && shift != nullptr)
@@ -102,26 +106,27 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
 
 void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
                          int end) const {
-  const int n = nodes_.perTriangle();
-  const int ofTriangle = pointsOfTriangle();
+  const int n = nodes_.perElement();
+  const int ofElement = pointsOfTriangle();
   const int terms = patches_->terms();
+  const int row = space_ ? 5 : 0;
   PatchProducts products(patches(), u);
   for (int i = begin; i < end; ++i) {
-    const std::array<DoubleDouble, 3>& sums = products(patches_->patchOf()[i / ofTriangle]);
+    const std::array<DoubleDouble, 3>& sums = products(patches_->patchOf()[i / ofElement]);
     const double* basis = patches_->basis(i);
     DoubleDouble p = DoubleDouble::product(basis[0], sums[0]);
     for (int k = 1; k < terms; ++k) p += DoubleDouble::product(basis[k], sums[k]);
-    const int* triangle = nodes_.of(i / ofTriangle);
+    const int* triangle = axisymmetric_ ? nodes_.of(i / ofElement) : nullptr;
     for (int a = 0; a < n && axisymmetric_; ++a)
       p += DoubleDouble::product(-overRoot2 * hoops_[static_cast<size_t>(n) * i + a],
                                  {u.high[2 * triangle[a]], u.low[2 * triangle[a]]});
-    if (shift != nullptr) p += DoubleDouble{-(*shift)(0, i), 0};
-    strain(0, i) = p.value();
+    if (shift != nullptr) p += DoubleDouble{-(*shift)(row, i), 0};
+    strain(row, i) = p.value();
   }
 }
 
 void Body::hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
-  const int n = nodes_.perTriangle();
+  const int n = nodes_.perElement();
   const int ofTriangle = pointsOfTriangle();
   for (int i = begin; i < end; ++i) {
     const int* triangle = nodes_.of(i / ofTriangle);
@@ -151,7 +156,7 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
     const int count = std::min(laneCount, end - first);
     for (int lane = 0; lane < laneCount; ++lane) {
       const int i = first + std::min(lane, count - 1);
-      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      const int* triangle = &nodes_.elements[static_cast<size_t>(Element::nodes) * (i / Element::points)];
       for (int k = 0; k < others; ++k) {
         const int dof = 2 * triangle[1 + k / 2] + k % 2;
         const int dof0 = 2 * triangle[0] + k % 2;
@@ -199,13 +204,13 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
 }
 
 void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
-  if (space_) return space_->addStressOf(d, law, stress, begin, end);
+  if (space_) return addStressInSpace(d, law, stress, begin, end);
   PatchProducts products(patches(), d);
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     constexpr int others = 2 * (Element::nodes - 1);
     const auto strainOf = [&](int i) {
-      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      const int* triangle = &nodes_.elements[static_cast<size_t>(Element::nodes) * (i / Element::points)];
       const double* G = &gradients_[static_cast<size_t>(others) * i];
       double xx = 0;
       double yy = 0;
@@ -237,7 +242,7 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * p + D[3 + c] * q + D[6 + c] * r;
     }
     for (int i = begin; i < end && axisymmetric_; ++i) {
-      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      const int* triangle = &nodes_.elements[static_cast<size_t>(Element::nodes) * (i / Element::points)];
       double hoop = 0;
       for (int a = 0; a < Element::nodes; ++a)
         hoop += hoops_[static_cast<size_t>(Element::nodes) * i + a] * d[2 * triangle[a]];
@@ -254,6 +259,69 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
         stress(row, i) +=
             law.beyond(first, i) * p + law.beyond(first + 1, i) * q + law.beyond(first + 2, i) * r;
       }
+    }
+  });
+}
+
+// In twice the working precision, of differences to the first node of each tetrahedron.
+void Body::strainInSpace(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
+                         int end) const {
+  withSpaceElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 3 * (Element::nodes - 1);
+    for (int i = begin; i < end; ++i) {
+      const int* nodes = space_->nodes().of(i / Element::points);
+      const double* G = &gradients_[static_cast<size_t>(others) * i];
+      std::array<DoubleDouble, 9> gradient{};  // of the displacement: component, then direction
+      for (int a = 1; a < Element::nodes; ++a, G += 3)
+        for (int c = 0; c < 3; ++c) {
+          const int dof = 3 * nodes[a] + c;
+          const int dof0 = 3 * nodes[0] + c;
+          DoubleDouble d = DoubleDouble::sum(u.high[dof], -u.high[dof0]);
+          d.low += u.low[dof] - u.low[dof0];
+          for (int k = 0; k < 3; ++k) {
+            gradient[3 * c + k] += DoubleDouble::product(G[k], d);
+          }
+        }
+      const auto plus = [](DoubleDouble a, const DoubleDouble& b, double times = 1) {
+        a += {times * b.high, times * b.low};  // times 1, -1 or -2
+        return a;
+      };
+      const auto store = [&](int row, const DoubleDouble& value, double factor = 1) {
+        DoubleDouble product = DoubleDouble::product(factor, value);
+        if (shift != nullptr) product += DoubleDouble{-(*shift)(row, i), 0};
+        strain(row, i) = product.value();
+      };
+      const auto& [xx, xy, xz, yx, yy, yz, zx, zy, zz] = gradient;
+      store(0, plus(plus(xx, yy), zz, -2), std::numbers::inv_sqrt3);
+      store(1, plus(xx, yy, -1));
+      store(2, plus(xy, yx));
+      store(3, plus(xz, zx));
+      store(4, plus(yz, zy));
+      store(5, plus(plus(xx, yy), zz), std::numbers::sqrt2 * std::numbers::inv_sqrt3);
+      if (strain.rows() > 6) strain(6, i) = shift != nullptr ? -(*shift)(6, i) : 0;
+    }
+  });
+}
+
+void Body::addStressInSpace(const Vector& d, const Linearisation& law, Matrix& stress, int begin,
+                            int end) const {
+  PatchProducts products(patches(), d);
+  withSpaceElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 3 * (Element::nodes - 1);
+    for (int i = begin; i < end; ++i) {
+      const int* nodes = space_->nodes().of(i / Element::points);
+      const double* G = &gradients_[static_cast<size_t>(others) * i];
+      const SpacePoint d0 = d.segment<3>(3 * static_cast<Eigen::Index>(nodes[0]));
+      Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+      for (int a = 1; a < Element::nodes; ++a, G += 3)
+        H += (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0) *
+             Eigen::RowVector3d(G[0], G[1], G[2]);
+      Eigen::Vector<double, 6> strain = strainOfGradient(H);
+      if (patches_) strain[5] = *patches_->basis(i) * products(patches_->patchOf()[i])[0];
+      stress.col(i).head<6>() += spaceModuliAt(law.moduli, i) * strain;
+      if (stress.rows() > 6) stress(6, i) += law.beyond.col(i).head<6>().dot(strain);
     }
   });
 }

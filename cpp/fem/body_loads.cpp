@@ -45,6 +45,22 @@ Point directed(int component, const Point& along) {
 
 }  // namespace
 
+std::vector<SpaceRulePoint> triangleRule() {
+  std::vector<SpaceRulePoint> rule;
+  for (const auto& [x, ofX] : gaussFour)
+    for (const auto& [y, ofY] : gaussFour) rule.push_back({{x, y * (1 - x), 0}, ofX * ofY * (1 - x)});
+  return rule;
+}
+
+std::vector<SpaceRulePoint> tetrahedronRule() {
+  std::vector<SpaceRulePoint> rule;
+  for (const auto& [z, ofZ] : gaussFour)
+    for (const SpaceRulePoint& each : triangleRule())
+      rule.push_back(
+          {{each.at.x() * (1 - z), each.at.y() * (1 - z), z}, ofZ * each.weight * (1 - z) * (1 - z)});
+  return rule;
+}
+
 Vector Body::load(double t) const {
   if (rigid()) return rigidLoad(t);
   if (space_) return spaceLoad(t);
@@ -206,12 +222,12 @@ Matrix Body::thermalStrain(double t) const {
   for (int i = 0; i < points(); ++i) kelvin[i] = conditions_.temperature(placeOfPoint(i), t);
   strain.topRows(conditions_.expansion.rows()) = conditions_.expansion * kelvin.asDiagonal();
   // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
-  if (patches_) {
+  if (patches_ && space_) {
+    strain.row(5) = patches_->averaged(strain.row(5), weights_);
+  } else if (patches_) {
     Vector theta = std::numbers::sqrt2 * strain.row(0);
     if (conditions_.expansion.rows() > 3) theta += strain.row(3).transpose();
     strain.row(0) += (patches_->averaged(theta, weights_) - theta).transpose() / std::numbers::sqrt2;
-  } else if (patches() != nullptr) {
-    strain.row(5) = patches()->averaged(strain.row(5), weights_);
   }
   return strain;
 }
@@ -220,7 +236,7 @@ Matrix Body::initialStress() const {
   // By component, those beyond the plane as far as they are given.
   Matrix given = Matrix::Zero(std::max(material_->components(), 4), points());
   std::vector<char> beyond(points(), 0);
-  const std::vector<int>& regions = space_ ? space_->mesh().regions : mesh_.regions;
+  const std::vector<int>& regions = Body::regions();
   for (const auto& [component, region, value] : conditions_.initialStresses) {
     const Vector values = atPoints(value, 0);
     for (int i = 0; i < points(); ++i) {

@@ -34,11 +34,11 @@ struct EdgePoint {
 };
 
 /// Of an element at its quadrature points.
-template <int nodes, int points>
+template <int nodes, int points, int dim = 2>
 struct Tabulation {
-  std::array<double, points> weights{};                           ///< their sum is the area [m^2]
-  std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;  ///< [1/m]; they sum to zero
-  std::array<Point, points> places;                               ///< [m]
+  std::array<double, points> weights{};                             ///< their sum is the area [m^2]
+  std::array<Eigen::Matrix<double, dim, nodes>, points> gradients;  ///< [1/m]; they sum to zero
+  std::array<Eigen::Vector<double, dim>, points> places;            ///< [m]
 };
 
 /// Displacement linear on the triangle, strain and stress constant: one quadrature point.

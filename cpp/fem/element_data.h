@@ -41,6 +41,11 @@ struct ElementData {
   }
 };
 
+/// Of the places of nodes.
+template <class Nodes>
+inline constexpr int dimensionOf =
+    std::remove_cvref_t<decltype(std::declval<Nodes>().places.front())>::SizeAtCompileTime;
+
 /// Calls work(Element{}) with the element of a degree.
 template <int dim, class Work>
 decltype(auto) withElementIn(int degree, Work work) {

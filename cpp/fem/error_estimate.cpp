@@ -176,12 +176,6 @@ class Fitted final : public ErrorEstimator::Recovery {
     else
       return body_.mesh();
   }
-  [[nodiscard]] const int* nodesOf(size_t element) const {
-    if constexpr (dimension == 3)
-      return body_.space()->nodes().of(element);
-    else
-      return body_.elementNodes().of(element);
-  }
   [[nodiscard]] Place placeOf(int node) const { return body_.placeOfNode(node).head<dimension>(); }
 
   /// Of an element; what a mode of a ring has of it goes with the radius.
@@ -215,7 +209,7 @@ class Fitted final : public ErrorEstimator::Recovery {
       for (const int e : order)
         for (int k = middles ? corners : 0; k < (middles ? nodes : corners); ++k) {
           int* own = &placeOf_[static_cast<size_t>(nodes) * e];
-          const int node = nodesOf(e)[k];
+          const int node = body_.nodesOf(e)[k];
           if (last[node] < 0 || regionOf_[last[node]] != regions[e]) {
             last[node] = static_cast<int>(nodeOf_.size());
             nodeOf_.push_back(node);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fem/volume_patches.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -17,37 +17,15 @@ struct PartGraph {
   std::vector<std::pair<int, int>> list;
 };
 
-/// Interior sides between triangles of one region, as pairs of triangles.
-std::vector<std::array<int, 2>> innerSides(const TriangleMesh& mesh) {
+/// Interior sides between elements of one region, as pairs of elements.
+template <class Mesh>
+std::vector<std::array<int, 2>> innerSides(const Mesh& mesh) {
   std::vector<std::array<int, 2>> pairs;
-  forEachEdge(sortedSides(mesh), [&](std::span<const TriangleSide> sides) {
+  forEachPlace(sortedSides(mesh), [&](const auto& sides) {
     if (sides.size() < 2) return;
-    const std::array pair{sides[0].triangle(), sides[1].triangle()};
+    const std::array pair{sides[0].element(), sides[1].element()};
     if (mesh.regions[pair[0]] == mesh.regions[pair[1]]) pairs.push_back(pair);
   });
-  return pairs;
-}
-
-/// The same of tetrahedra.
-std::vector<std::array<int, 2>> innerSides(const TetrahedronMesh& mesh) {
-  std::vector<std::array<int, 4>> sides;  // vertices ascending, and the tetrahedron
-  sides.reserve(4 * mesh.tetrahedra.size());
-  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (int without = 0; without < 4; ++without) {
-      std::array<int, 4> side{0, 0, 0, static_cast<int>(t)};
-      for (int k = 0, next = 0; k < 4; ++k)
-        if (k != without) side[next++] = mesh.tetrahedra[t][k];
-      std::sort(side.begin(), side.begin() + 3);
-      sides.push_back(side);
-    }
-  std::sort(sides.begin(), sides.end());
-  std::vector<std::array<int, 2>> pairs;
-  for (size_t i = 1; i < sides.size(); ++i) {
-    const std::array pair{sides[i - 1][3], sides[i][3]};
-    if (std::equal(sides[i].begin(), sides[i].begin() + 3, sides[i - 1].begin()) &&
-        mesh.regions[pair[0]] == mesh.regions[pair[1]])
-      pairs.push_back(pair);
-  }
   return pairs;
 }
 

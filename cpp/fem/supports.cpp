@@ -218,10 +218,7 @@ void Supports::build(const Nodes& nodes, const std::vector<Condition>& condition
   std::map<int, NodeSupport> held;
   const auto at = [&](int node) -> NodeSupport& {
     held[node].node = node;
-    if constexpr (std::is_same_v<Nodes, ElementNodes>)
-      held[node].place = asSpacePoint(nodes.places[node]);
-    else
-      held[node].place = nodes.places[node];
+    held[node].place = asSpacePoint(nodes.places[node]);
     return held[node];
   };
   // Axes first: a normal that is one of them up to rounding is left out.

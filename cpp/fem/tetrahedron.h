@@ -9,11 +9,39 @@
 #include <Eigen/LU>
 
 #include "base/types.h"
+#include "fem/element.h"
 #include "mesh/tetrahedron_mesh.h"
 
 namespace mortier {
 
 using SpaceBarycentric = std::array<double, 4>;
+
+/// Gradients of the barycentric coordinates, as columns [1/m], and the volume [m^3].
+struct TetrahedronGeometry {
+  explicit TetrahedronGeometry(const std::array<SpacePoint, 4>& x) {
+    Eigen::Matrix3d edges;
+    edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
+    volume = edges.determinant() / 6;
+    gradients.rightCols<3>() = edges.inverse().transpose();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+  }
+  Eigen::Matrix<double, 3, 4> gradients;
+  double volume;
+};
+
+/// At the points of an element with straight sides. \param x  of its nodes, the vertices first [m]
+template <class Element>
+Tabulation<Element::nodes, Element::points, 3> tabulated(const std::array<SpacePoint, Element::nodes>& x) {
+  Tabulation<Element::nodes, Element::points, 3> result;
+  const TetrahedronGeometry geometry({x[0], x[1], x[2], x[3]});
+  for (int q = 0; q < Element::points; ++q) {
+    const SpaceBarycentric& at = Element::interior[q];
+    result.weights[q] = geometry.volume / Element::points;
+    result.gradients[q] = geometry.gradients * Element::derivatives(at);
+    result.places[q] = at[0] * x[0] + at[1] * x[1] + at[2] * x[2] + at[3] * x[3];
+  }
+  return result;
+}
 
 /// Displacement linear on the tetrahedron, strain and stress constant.
 struct LinearTetrahedron {
@@ -57,19 +85,6 @@ template <class Work>
 decltype(auto) withSpaceElement(int degree, Work work) {
   return degree == 1 ? work(LinearTetrahedron{}) : work(QuadraticTetrahedron{});
 }
-
-/// Gradients of the barycentric coordinates, as columns [1/m], and the volume [m^3].
-struct TetrahedronGeometry {
-  explicit TetrahedronGeometry(const std::array<SpacePoint, 4>& x) {
-    Eigen::Matrix3d edges;
-    edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
-    volume = edges.determinant() / 6;
-    gradients.rightCols<3>() = edges.inverse().transpose();
-    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
-  }
-  Eigen::Matrix<double, 3, 4> gradients;
-  double volume;
-};
 
 /// Shape functions on a side of an element: of its vertices, then of the middles 0-1, 1-2, 2-0.
 inline std::array<double, 6> faceShapes(int degree, double l1, double l2) {

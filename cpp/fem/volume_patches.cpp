@@ -52,8 +52,8 @@ void VolumePatches::findPatches(const std::vector<int>& nodes) {
 VolumePatches::VolumePatches(const std::vector<int>& patchOf, const ElementNodes& nodes,
                              const std::vector<Point>& places, const std::vector<double>& weights,
                              const std::vector<double>& gradients, const std::vector<double>& hoops)
-    : VolumePatches(patchOf, {2, nodes.perTriangle(), nodes.degree == 1 ? 1 : 3, nodes.degree == 1 ? 1 : 3,
-                              nodes.triangles, weights, gradients, hoops, places}) {}
+    : VolumePatches(patchOf, {2, nodes.perElement(), nodes.degree == 1 ? 1 : 3, nodes.degree == 1 ? 1 : 3,
+                              nodes.elements, weights, gradients, hoops, places}) {}
 
 VolumePatches::VolumePatches(const std::vector<int>& patchOf, const SpaceNodes& nodes,
                              const std::vector<double>& weights, const std::vector<double>& gradients)

@@ -37,7 +37,7 @@ class VolumePatches {
   VolumePatches(const std::vector<int>& patchOf, const ElementNodes& nodes, const std::vector<Point>& places,
                 const std::vector<double>& weights, const std::vector<double>& gradients,
                 const std::vector<double>& hoops);
-  /// \param patchOf  of each tetrahedron; other arguments as in SpaceElements. \pre degree 1
+  /// \param patchOf  of each tetrahedron; other arguments as those of Body. \pre degree 1
   VolumePatches(const std::vector<int>& patchOf, const SpaceNodes& nodes, const std::vector<double>& weights,
                 const std::vector<double>& gradients);
 

@@ -33,7 +33,7 @@ Side sideOf(const LintInput& input, const SideDescription& description, int labe
   side.body = static_cast<size_t>(bodyIndex(input.scene, description.body));
   side.mesh = input.meshes[side.body];
   if (side.mesh == nullptr) return side;
-  for (const auto& [a, b] : edgesOn(*side.mesh, label)) {
+  for (const auto& [a, b] : sidesWith(*side.mesh, label)) {
     const Point along = side.mesh->vertices[b] - side.mesh->vertices[a];
     if (side.edges++ == 0) side.first = side.mesh->vertices[a];
     side.normal += Point(along.y(), -along.x());
@@ -189,7 +189,7 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
         const int v = vertexAt(mesh, *c.point);
         if (v >= 0 && isNonmortar(v, c.component)) node = v;
       }
-      for (const auto& [a, b] : c.point ? std::vector<std::array<int, 2>>() : edgesOn(mesh, c.label)) {
+      for (const auto& [a, b] : c.point ? std::vector<std::array<int, 2>>() : sidesWith(mesh, c.label)) {
         const auto axis = axisOf(c.component, mesh.vertices[a], mesh.vertices[b]);
         for (const int v : {a, b})
           if (axis && isNonmortar(v, *axis)) node = v;

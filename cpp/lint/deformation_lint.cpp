@@ -82,7 +82,7 @@ void raiseTurn(const BodyDescription& body, const std::array<HeldMotions, 2>& he
     if (c.kind != ConditionDescription::Kind::displacement || c.point || c.onAxis || c.component > 1)
       continue;
     const HeldMotions& motions = held[c.component];
-    for (const auto& [a, b] : edgesOn(mesh, c.label)) {
+    for (const auto& [a, b] : sidesWith(mesh, c.label)) {
       const Point along = mesh.vertices[b] - mesh.vertices[a];
       constexpr double aligned = 1e-9;
       if (std::abs(along[c.component]) > aligned * along.norm()) continue;
@@ -172,7 +172,7 @@ void lintApproach(const LintInput& input, const ContactDescription& contact, Con
     const double deepest = depth.maxCoeff(&row);
     if (!(deepest > 0)) continue;
     const Point& x = input.meshes[nonmortar]->vertices[interface.nonmortarNodes()[row]];
-    const Point& n = interface.normals()[row];
+    const Point n = interface.normals()[row].head<2>();
     strain.raise(
         deepest / (lengthTo(input, contact.nonmortar(), x, n) + lengthTo(input, contact.mortar(), x, n)),
         contact.where);

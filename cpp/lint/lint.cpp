@@ -43,8 +43,7 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
   if (one == nullptr || two == nullptr) return 0;
   InterfaceOptions options;
   options.initial = contact.initial;
-  if (contact.gap)
-    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+  if (contact.gap) options.gap = contact.gap->value;
   try {
     requireMemory({one, two}, {{{0, pair.nonmortar.label}, {1, pair.mortar.label}, pair.coupling}},
                   input.scene.degree, {contact.friction.any()}, input.scene.solver);

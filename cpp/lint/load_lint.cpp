@@ -56,7 +56,7 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
   const std::vector<char> held = heldDofs(mesh, conditions);
   for (const ConditionDescription& c : conditions) {
     if (c.kind != ConditionDescription::Kind::traction) continue;
-    const auto edges = edgesOn(mesh, c.label);
+    const auto edges = sidesWith(mesh, c.label);
     bool all = !edges.empty();
     for (const auto& [from, to] : edges) {
       const auto axis = axisOf(c.component, mesh.vertices[from], mesh.vertices[to]);

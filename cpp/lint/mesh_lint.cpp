@@ -7,7 +7,7 @@
 #include "base/formatted.h"
 #include "lint/lint.h"
 #include "mesh/box_of.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -157,15 +157,15 @@ void findChanges(const Mesh& mesh, Faults& faults) {
   if (!mesh.changed.empty()) faults.add("mesh-changed", mesh.name, mesh.changed);
 }
 
-/// \param elements  how many there are  \param word  for one  \param best  the word for one whose ratio is 1
 template <class Mesh>
-void findSlivers(const Mesh& mesh, size_t elements, const std::string& word, const std::string& best,
-                 Faults& faults) {
+void findSlivers(const Mesh& mesh, Faults& faults) {
   constexpr double flat = 20;  // of the aspect ratio
+  const std::string word = elementWord<Mesh>;
+  const std::string best = ofTetrahedra<Mesh> ? "regular" : "equilateral";
   size_t slivers = 0;
   double worst = flat;
   int where = 0;
-  for (int t = 0; t < static_cast<int>(elements); ++t) {
+  for (int t = 0; t < static_cast<int>(elementsOf(mesh).size()); ++t) {
     const double ratio = aspectRatio(mesh, t);
     slivers += ratio > flat ? 1 : 0;
     if (ratio > worst) {
@@ -192,14 +192,14 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     findDoubles(mesh, topology, tree, faults);
     findHangingNodes(mesh, topology, tree, faults);
     findCrossings(mesh, topology, tree, faults);
-    findSlivers(mesh, mesh.triangles.size(), "triangle", "equilateral", faults);
+    findSlivers(mesh, faults);
   }
 }
 
 void lintMeshes(const std::vector<TetrahedronMesh>& meshes, Faults& faults) {
   for (const TetrahedronMesh& mesh : meshes) {
     findChanges(mesh, faults);
-    findSlivers(mesh, mesh.tetrahedra.size(), "tetrahedron", "regular", faults);
+    findSlivers(mesh, faults);
   }
 }
 

@@ -3,25 +3,25 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 
 Topology topologyOf(const TriangleMesh& mesh) {
-  const TriangleSides sides = sortedSides(mesh);
+  const ElementSides<2> sides = sortedSides(mesh);
   std::vector<int> labels(sides.size(), noLabel);
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-    for (const TriangleSide& side : sidesOn(sides, mesh.boundaryEdges[e][0], mesh.boundaryEdges[e][1]))
+    for (const ElementSide<2>& side : sidesOn(sides, mesh.boundaryEdges[e]))
       labels[&side - sides.data()] = mesh.boundaryLabels[e];
   Topology topology;
-  forEachEdge(sides, [&](std::span<const TriangleSide> on) {
-    const TriangleSide& first = on[0];
-    const auto& corners = mesh.triangles[first.triangle()];
+  forEachPlace(sides, [&](std::span<const ElementSide<2>> on) {
+    const ElementSide<2>& first = on[0];
+    const auto& corners = mesh.triangles[first.element()];
     if (on.size() > 1)
-      topology.neighbours.push_back({first.triangle(), on[1].triangle()});
+      topology.neighbours.push_back({first.element(), on[1].element()});
     else
       topology.boundary.push_back({corners[first.corner()], corners[(first.corner() + 1) % 3],
-                                   first.triangle(), labels[&first - sides.data()]});
+                                   first.element(), labels[&first - sides.data()]});
   });
   return topology;
 }

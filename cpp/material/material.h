@@ -148,7 +148,7 @@ class Material {
   /// One for each part of the body.
   [[nodiscard]] virtual std::vector<LawDescription> laws() const = 0;
   /// Number of stress components: those of the plane, one beyond it, and what a law remembers in the form of
-  /// one: it does work on no strain of the body. In space six (fem/space_elements.h).
+  /// one: it does work on no strain of the body. In space six (fem/body_kernels.cpp).
   [[nodiscard]] virtual int components() const = 0;
   /// How many of them are those of the tensor.
   [[nodiscard]] virtual int tensorComponents() const { return components(); }

@@ -25,39 +25,12 @@ std::string describeVertex(const TriangleMesh& mesh, int v) {
        "is missing, expected one of" + (present.empty() ? " none: no edge is labelled" : present));
 }
 
-}  // namespace
-
-std::vector<int> boundaryLabels(const TriangleMesh& mesh) {
-  std::vector<int> labels = mesh.boundaryLabels;
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  return labels;
-}
-
-std::vector<std::array<int, 2>> edgesOn(const TriangleMesh& mesh, int label) {
-  std::vector<std::array<int, 2>> edges;
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    if (mesh.boundaryLabels[e] == label) edges.push_back(mesh.boundaryEdges[e]);
-  }
-  return edges;
-}
-
-std::vector<int> verticesOn(const TriangleMesh& mesh, int label) {
-  std::vector<int> vertices;
-  for (const auto& [a, b] : edgesOn(mesh, label)) vertices.insert(vertices.end(), {a, b});
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-namespace {
-
 /// The vertices along a label.
 BoundaryLine verticesOf(const TriangleMesh& mesh, int label) {
   constexpr int none = -1;
   std::vector<int> next(mesh.vertices.size(), none), previous(mesh.vertices.size(), none);
   std::vector<int> starts;  // of the edges that carry the label
-  for (const auto& [a, b] : edgesOn(mesh, label)) {
+  for (const auto& [a, b] : sidesWith(mesh, label)) {
     if (next[a] != none || previous[b] != none)
       fail(mesh, label,
            "branches in " + describeVertex(mesh, next[a] != none ? a : b) + ", expected one line");

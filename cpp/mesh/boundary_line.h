@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/element_nodes.h"
-#include "mesh/triangle_mesh.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 
@@ -28,15 +28,6 @@ struct BoundaryLine {
 BoundaryLine boundaryLine(const TriangleMesh& mesh, int label);
 /// The same with the nodes in the middle of its elements.
 BoundaryLine boundaryLine(const TriangleMesh& mesh, const ElementNodes& nodes, int label);
-
-/// The labels present on the boundary, ascending, each once.
-std::vector<int> boundaryLabels(const TriangleMesh& mesh);
-
-/// The edges that carry a label, in the mesh's order; none where the label is missing.
-std::vector<std::array<int, 2>> edgesOn(const TriangleMesh& mesh, int label);
-
-/// The vertices of those edges, ascending, each once.
-std::vector<int> verticesOn(const TriangleMesh& mesh, int label);
 
 /// The first vertex that lies exactly at a place [m]; -1 for none.
 template <class Mesh, class Place>

@@ -11,8 +11,8 @@ ElementNodes elementNodes(const TriangleMesh& mesh, int degree) {
   nodes.places = mesh.vertices;
   const size_t edges = mesh.boundaryEdges.size();
   if (degree == 1) {
-    nodes.triangles.reserve(3 * mesh.triangles.size());
-    for (const auto& t : mesh.triangles) nodes.triangles.insert(nodes.triangles.end(), t.begin(), t.end());
+    nodes.elements.reserve(3 * mesh.triangles.size());
+    for (const auto& t : mesh.triangles) nodes.elements.insert(nodes.elements.end(), t.begin(), t.end());
     for (size_t e = 0; e < edges; ++e) nodes.boundary.push_back({mesh.boundaryEdges[e], static_cast<int>(e)});
     return nodes;
   }
@@ -21,15 +21,15 @@ ElementNodes elementNodes(const TriangleMesh& mesh, int degree) {
     return static_cast<int64_t>(low) * static_cast<int64_t>(mesh.vertices.size()) + high;
   };
   std::unordered_map<int64_t, int> middleOf;
-  nodes.triangles.reserve(6 * mesh.triangles.size());
+  nodes.elements.reserve(6 * mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
-    nodes.triangles.insert(nodes.triangles.end(), t.begin(), t.end());
+    nodes.elements.insert(nodes.elements.end(), t.begin(), t.end());
     for (int side = 0; side < 3; ++side) {
       const int a = t[side];
       const int b = t[(side + 1) % 3];
       const auto [found, isNew] = middleOf.try_emplace(key(a, b), nodes.count());
       if (isNew) nodes.places.emplace_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
-      nodes.triangles.push_back(found->second);
+      nodes.elements.push_back(found->second);
     }
   }
   for (size_t e = 0; e < edges; ++e) {

@@ -18,15 +18,15 @@ struct BoundaryStretch {
 
 struct ElementNodes {
   int degree = 1;
-  std::vector<Point> places;   ///< [m]; vertices first, numbered as in the mesh
-  std::vector<int> triangles;  ///< 3 or 6 per triangle: vertices, then the middles of the sides 0-1, 1-2, 2-0
-  std::vector<int> middles;    ///< of each labelled boundary edge; empty for degree 1
+  std::vector<Point> places;  ///< [m]; vertices first, numbered as in the mesh
+  std::vector<int> elements;  ///< 3 or 6 per triangle: vertices, then the middles of the sides 0-1, 1-2, 2-0
+  std::vector<int> middles;   ///< of each labelled boundary edge; empty for degree 1
   std::vector<BoundaryStretch> boundary;  ///< of the labelled boundary, edge by edge
 
-  [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+  [[nodiscard]] int perElement() const { return degree == 1 ? 3 : 6; }
   /// Of a triangle.
   [[nodiscard]] const int* of(size_t triangle) const {
-    return &triangles[triangle * static_cast<size_t>(perTriangle())];
+    return &elements[triangle * static_cast<size_t>(perElement())];
   }
   [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
 };

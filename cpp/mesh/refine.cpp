@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -40,7 +40,7 @@ class Bisection {
     triangles_ = std::exchange(result_.mesh.triangles, {});
     edges_.resize(sides_.size());
     for (size_t i = 0; i < sides_.size(); ++i) {
-      const bool isNew = i == 0 || sides_[i].edge != sides_[i - 1].edge;
+      const bool isNew = i == 0 || sides_[i].vertices != sides_[i - 1].vertices;
       edges_[sides_[i].place] = isNew ? static_cast<int>(i) : edges_[sides_[i - 1].place];
     }
     middle_.assign(sides_.size(), none);
@@ -62,7 +62,7 @@ class Bisection {
 
  private:
   [[nodiscard]] int edgeOf(const std::array<int, 2>& ends) const {
-    return edges_[sidesOn(sides_, ends[0], ends[1]).front().place];
+    return edges_[sidesOn(sides_, ends).front().place];
   }
 
   void cut(int edge) {
@@ -74,8 +74,8 @@ class Bisection {
     while (!fresh_.empty()) {
       const auto edge = static_cast<size_t>(fresh_.back());
       fresh_.pop_back();
-      for (size_t i = edge; i < sides_.size() && sides_[i].edge == sides_[edge].edge; ++i)
-        cut(edges_[3 * sides_[i].triangle()]);
+      for (size_t i = edge; i < sides_.size() && sides_[i].vertices == sides_[edge].vertices; ++i)
+        cut(edges_[3 * sides_[i].element()]);
     }
   }
 
@@ -198,7 +198,7 @@ class Bisection {
 
   const TriangleMesh& old_;
   std::vector<std::array<int, 3>> triangles_;  // on their longest sides
-  TriangleSides sides_;                        // of these
+  ElementSides<2> sides_;                      // of these
   std::vector<int> edges_;                     // by places of sides, the first of those on the same edge
   std::vector<int> middle_;                    // of edges
   std::vector<int> fresh_;                     // edges that are cut, and their triangles not yet looked at

@@ -71,12 +71,6 @@ struct CurvedFaces {
   std::shared_ptr<const GeometrySurfaces> geometry = nullptr;
 };
 
-/// The same triangle for all orders of its vertices.
-inline std::array<int, 3> sortedTriangle(std::array<int, 3> triangle) {
-  std::sort(triangle.begin(), triangle.end());
-  return triangle;
-}
-
 inline int partOfSurface(int surface) {
   return -1 - surface;
 }

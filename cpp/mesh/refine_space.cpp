@@ -8,6 +8,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/cut_simplices.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -263,10 +264,10 @@ class SpaceBisection {
     const SpacePoint unknown = SpacePoint::Constant(std::numeric_limits<double>::quiet_NaN());
     std::map<std::array<int, 3>, int> partOf;
     for (size_t i = 0; i < curved_.count(); ++i)
-      if (result_.curves.parts[i] < 0) partOf[sortedTriangle(curved_.all()[i])] = result_.curves.parts[i];
+      if (result_.curves.parts[i] < 0) partOf[sideOf(curved_.all()[i])] = result_.curves.parts[i];
     for (size_t i = 0; i < labelled_.count(); ++i) {
       const std::array<int, 3>& triangle = labelled_.all()[i];
-      const auto known = partOf.find(sortedTriangle(triangle));
+      const auto known = partOf.find(sideOf(triangle));
       const auto parent = static_cast<size_t>(labelled_.parent(static_cast<int>(i)));
       const auto& before = old_.boundaryTriangles[parent];
       std::array<SpacePoint, 3>& own = result_.mesh.boundaryNormals.emplace_back();

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "mesh/element_sides.h"
 #include "mesh/simplices.h"
-#include "mesh/triangle_sides.h"
 
 namespace mortier {
 namespace {
@@ -64,16 +64,10 @@ void withSides(Mesh& mesh, const Use& use) {
 /// Keeps the sides that belong to so many elements. \param good  of that number
 template <class Mesh, class Good>
 void keepSides(Mesh& mesh, const Good& good) {
-  if constexpr (ofTetrahedra<Mesh>) {
-    const TriangleCount count(mesh);
-    const auto keep = [&](const std::array<int, 3>& triangle) { return good(count(triangle)); };
-    withSides(mesh, [&](auto&... lists) { keepItems(keep, lists...); });
-    keepItems(keep, mesh.geometry.triangles, mesh.geometry.numbers);
-  } else {
-    const TriangleSides sides = sortedSides(mesh);
-    const auto keep = [&](const auto& edge) { return good(sidesOn(sides, edge[0], edge[1]).size()); };
-    withSides(mesh, [&](auto&... lists) { keepItems(keep, lists...); });
-  }
+  const auto sides = sortedSides(mesh);
+  const auto keep = [&](const auto& side) { return good(sidesOn(sides, side).size()); };
+  withSides(mesh, [&](auto&... lists) { keepItems(keep, lists...); });
+  if constexpr (ofTetrahedra<Mesh>) keepItems(keep, mesh.geometry.triangles, mesh.geometry.numbers);
 }
 
 template <class Mesh>

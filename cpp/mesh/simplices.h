@@ -23,6 +23,11 @@ inline constexpr const char* elementsWord = ofTetrahedra<Mesh> ? "tetrahedra" : 
 template <class Mesh>
 inline constexpr const char* sideWord = ofTetrahedra<Mesh> ? "triangle" : "edge";
 
+/// Beside that of a point in the plane (base/types.h).
+inline const SpacePoint& asSpacePoint(const SpacePoint& x) {
+  return x;
+}
+
 template <class Mesh>
 auto& elementsOf(Mesh& mesh) {
   if constexpr (ofTetrahedra<Mesh>)
@@ -38,6 +43,34 @@ auto& labelledSides(Mesh& mesh) {
     return mesh.boundaryTriangles;
   else
     return mesh.boundaryEdges;
+}
+
+/// The labels present on the boundary, ascending, each once.
+template <class Mesh>
+std::vector<int> boundaryLabels(const Mesh& mesh) {
+  std::vector<int> labels = mesh.boundaryLabels;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
+/// The sides that carry a label, in the mesh's order; none where the label is missing.
+template <class Mesh>
+auto sidesWith(const Mesh& mesh, int label) {
+  std::remove_cvref_t<decltype(labelledSides(mesh))> sides;
+  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
+    if (mesh.boundaryLabels[i] == label) sides.push_back(labelledSides(mesh)[i]);
+  return sides;
+}
+
+/// The vertices of those sides, ascending, each once.
+template <class Mesh>
+std::vector<int> verticesOn(const Mesh& mesh, int label) {
+  std::vector<int> vertices;
+  for (const auto& side : sidesWith(mesh, label)) vertices.insert(vertices.end(), side.begin(), side.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 /// The vertices of a side, ascending, those of an edge after a -1.

@@ -2,32 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include <Eigen/Geometry>
 
 #include "base/error.h"
 #include "base/formatted.h"
 #include "mesh/box_of.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
 
 /// Volume over the cube of the longest edge of a tetrahedron that is flat.
 constexpr double flat = 1e-12;
-
-/// The triangle opposite to each vertex of a tetrahedron of positive volume, counterclockwise from outside.
-constexpr std::array<std::array<int, 3>, 4> oppositeTriangles{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-struct SortedTriangle {
-  std::array<int, 3> sorted, outward;
-  int tetrahedron;
-};
-
-std::array<int, 3> sortedOf(std::array<int, 3> triangle) {
-  std::sort(triangle.begin(), triangle.end());
-  return triangle;
-}
 
 /// Whether two triangles of the same vertices run around them in the same sense.
 bool sameSense(const std::array<int, 3>& one, const std::array<int, 3>& other) {
@@ -67,36 +55,22 @@ void orientTetrahedra(TetrahedronMesh& mesh) {
 }
 
 /// The triangles that belong to one tetrahedron, sorted.
-std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
-  std::vector<SortedTriangle> all;
-  all.reserve(4 * mesh.tetrahedra.size());
-  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (const auto& [a, b, c] : oppositeTriangles) {
-      const std::array<int, 4>& vertices = mesh.tetrahedra[t];
-      const std::array<int, 3> outward{vertices[a], vertices[b], vertices[c]};
-      all.push_back({sortedOf(outward), outward, static_cast<int>(t)});
-    }
-  std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) {
-    return x.sorted != y.sorted ? x.sorted < y.sorted : x.tetrahedron < y.tetrahedron;
+ElementSides<3> boundaryOf(const TetrahedronMesh& mesh) {
+  ElementSides<3> boundary;
+  const auto outward = [&](const ElementSide<3>& side) {
+    return sideOf(mesh.tetrahedra[side.element()], side.corner());
+  };
+  const auto fail = [&](const std::string& what) { throw InputError(mesh.name + ": tetrahedra " + what); };
+  forEachPlace(sortedSides(mesh), [&](std::span<const ElementSide<3>> sides) {
+    const auto number = [&](size_t i) { return std::to_string(sides[i].element() + 1); };
+    if (sides.size() > 2)
+      fail(number(0) + ", " + number(1) + " and " + number(2) + " share a triangle, expected two at most");
+    if (sides.size() == 2 && sameSense(outward(sides[0]), outward(sides[1])))
+      fail(number(0) + " and " + number(1) + " at " + placeOf(mesh, static_cast<size_t>(sides[1].element())) +
+           " lie on the same side of the triangle that they share: the mesh is folded there, "
+           "expected one on each side");
+    if (sides.size() == 1) boundary.push_back(sides[0]);
   });
-  std::vector<SortedTriangle> boundary;
-  for (size_t i = 0; i < all.size();) {
-    size_t end = i + 1;
-    while (end < all.size() && all[end].sorted == all[i].sorted) ++end;
-    if (end - i > 2)
-      throw InputError(mesh.name + ": tetrahedra " + std::to_string(all[i].tetrahedron + 1) + ", " +
-                       std::to_string(all[i + 1].tetrahedron + 1) + " and " +
-                       std::to_string(all[i + 2].tetrahedron + 1) +
-                       " share a triangle, expected two at most");
-    if (end - i == 2 && sameSense(all[i].outward, all[i + 1].outward))
-      throw InputError(mesh.name + ": tetrahedra " + std::to_string(all[i].tetrahedron + 1) + " and " +
-                       std::to_string(all[i + 1].tetrahedron + 1) + " at " +
-                       placeOf(mesh, static_cast<size_t>(all[i + 1].tetrahedron)) +
-                       " lie on the same side of the triangle that they share: the mesh is folded there, "
-                       "expected one on each side");
-    if (end - i == 1) boundary.push_back(all[i]);
-    i = end;
-  }
   return boundary;
 }
 
@@ -104,8 +78,21 @@ std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
 
 std::vector<std::array<int, 3>> outerTriangles(const TetrahedronMesh& mesh) {
   std::vector<std::array<int, 3>> triangles;
-  for (const SortedTriangle& each : boundaryOf(mesh)) triangles.push_back(each.outward);
+  for (const auto& side : boundaryOf(mesh))
+    triangles.push_back(sideOf(mesh.tetrahedra[side.element()], side.corner()));
   return triangles;
+}
+
+std::vector<int> labelsOf(const TetrahedronMesh& mesh, const std::vector<std::array<int, 3>>& outer) {
+  std::map<std::array<int, 3>, int> labels;
+  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
+    labels[sideOf(mesh.boundaryTriangles[i])] = mesh.boundaryLabels[i];
+  std::vector<int> result;
+  for (const auto& triangle : outer) {
+    const auto found = labels.find(sideOf(triangle));
+    result.push_back(found == labels.end() ? -1 : found->second);
+  }
+  return result;
 }
 
 double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron) {
@@ -117,19 +104,6 @@ double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron
 void requireVertices(const TetrahedronMesh& mesh) {
   requireVertices(mesh, mesh.tetrahedra, "tetrahedron");
   requireVertices(mesh, mesh.boundaryTriangles, "triangle");
-}
-
-TriangleCount::TriangleCount(const TetrahedronMesh& mesh) {
-  sorted_.reserve(4 * mesh.tetrahedra.size());
-  for (const std::array<int, 4>& vertices : mesh.tetrahedra)
-    for (const auto& [a, b, c] : oppositeTriangles)
-      sorted_.push_back(sortedOf({vertices[a], vertices[b], vertices[c]}));
-  std::sort(sorted_.begin(), sorted_.end());
-}
-
-int TriangleCount::operator()(const std::array<int, 3>& triangle) const {
-  const auto [first, last] = std::equal_range(sorted_.begin(), sorted_.end(), sortedOf(triangle));
-  return static_cast<int>(last - first);
 }
 
 namespace {
@@ -173,19 +147,17 @@ void validate(TetrahedronMesh& mesh) {
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
     throw InputError(mesh.name + ": two tetrahedra have the same vertices");
 
-  const std::vector<SortedTriangle> boundary = boundaryOf(mesh);
+  const ElementSides<3> boundary = boundaryOf(mesh);
   std::vector<char> labelled(boundary.size(), 0);
   for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
     std::array<int, 3>& triangle = mesh.boundaryTriangles[i];
-    const auto found = std::lower_bound(
-        boundary.begin(), boundary.end(), sortedOf(triangle),
-        [](const SortedTriangle& each, const std::array<int, 3>& value) { return each.sorted < value; });
+    const auto found = sidesOn(boundary, triangle);
     const std::string here = mesh.name + ": triangle " + std::to_string(i + 1);
-    if (found == boundary.end() || found->sorted != sortedOf(triangle))
-      throw InputError(here + " is labelled, but is not on the boundary");
-    if (labelled[found - boundary.begin()]++ != 0) throw InputError(here + " is labelled twice");
-    turnNormals(mesh, i, found->outward);
-    triangle = found->outward;
+    if (found.empty()) throw InputError(here + " is labelled, but is not on the boundary");
+    if (labelled[&found[0] - boundary.data()]++ != 0) throw InputError(here + " is labelled twice");
+    const std::array<int, 3> outward = sideOf(mesh.tetrahedra[found[0].element()], found[0].corner());
+    turnNormals(mesh, i, outward);
+    triangle = outward;
   }
 }
 
@@ -196,31 +168,16 @@ double aspectRatio(const TetrahedronMesh& mesh, int t) {
   double longest = 0;
   for (const auto& [a, b] : sidesOfTetrahedron) longest = std::max(longest, (place(b) - place(a)).norm());
   double largest = 0;  // of the sides' areas
-  for (const auto& [a, b, c] : oppositeTriangles)
-    largest = std::max(largest, (place(b) - place(a)).cross(place(c) - place(a)).norm() / 2);
+  for (int k = 0; k < 4; ++k) {
+    const auto [a, b, c] = sideOf(vertices, k);
+    const SpacePoint& x = mesh.vertices[a];
+    largest = std::max(largest, (mesh.vertices[b] - x).cross(mesh.vertices[c] - x).norm() / 2);
+  }
   return longest * largest / (3 * std::abs(volume(mesh, vertices))) / regular;
 }
 
 double extent(const TetrahedronMesh& mesh) {
   return boxOf(mesh.vertices).sizes().maxCoeff();
-}
-
-std::vector<int> boundaryLabels(const TetrahedronMesh& mesh) {
-  const std::set<int> labels(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end());
-  return {labels.begin(), labels.end()};
-}
-
-std::vector<std::array<int, 3>> trianglesOn(const TetrahedronMesh& mesh, int label) {
-  std::vector<std::array<int, 3>> triangles;
-  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i)
-    if (mesh.boundaryLabels[i] == label) triangles.push_back(mesh.boundaryTriangles[i]);
-  return triangles;
-}
-
-std::vector<int> verticesOn(const TetrahedronMesh& mesh, int label) {
-  std::set<int> vertices;
-  for (const auto& triangle : trianglesOn(mesh, label)) vertices.insert(triangle.begin(), triangle.end());
-  return {vertices.begin(), vertices.end()};
 }
 
 SpaceNodes spaceNodes(const TetrahedronMesh& mesh, int degree) {

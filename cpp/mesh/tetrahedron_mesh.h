@@ -41,18 +41,10 @@ void validate(TetrahedronMesh& mesh);
 /// InputError
 void requireVertices(const TetrahedronMesh& mesh);
 
-/// Whether a triangle of vertices, in any order, belongs to two tetrahedra, to one, or to none.
-class TriangleCount {
- public:
-  explicit TriangleCount(const TetrahedronMesh& mesh);
-  [[nodiscard]] int operator()(const std::array<int, 3>& triangle) const;
-
- private:
-  std::vector<std::array<int, 3>> sorted_;  ///< of all tetrahedra, as often as they have it
-};
-
 /// The triangles that belong to one tetrahedron, labelled or not, counterclockwise seen from outside.
 std::vector<std::array<int, 3>> outerTriangles(const TetrahedronMesh& mesh);
+/// Their labels, -1 where they have none.
+std::vector<int> labelsOf(const TetrahedronMesh& mesh, const std::vector<std::array<int, 3>>& outer);
 /// Of a tetrahedron, negative where it is turned over [m^3].
 double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron);
 
@@ -61,13 +53,6 @@ double extent(const TetrahedronMesh& mesh);
 
 /// Ratio of the longest edge to the smallest height, over that of the regular tetrahedron: 1 is best.
 double aspectRatio(const TetrahedronMesh& mesh, int t);
-
-/// The labels present on the boundary, ascending, each once.
-std::vector<int> boundaryLabels(const TetrahedronMesh& mesh);
-/// The triangles that carry a label, in the mesh's order.
-std::vector<std::array<int, 3>> trianglesOn(const TetrahedronMesh& mesh, int label);
-/// The vertices of those triangles, ascending, each once.
-std::vector<int> verticesOn(const TetrahedronMesh& mesh, int label);
 
 /// Sides of a tetrahedron, in the order of their middles among its nodes.
 inline constexpr std::array<std::array<int, 2>, 6> sidesOfTetrahedron{

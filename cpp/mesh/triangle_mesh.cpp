@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "mesh/box_of.h"
-#include "mesh/triangle_sides.h"
+#include "mesh/element_sides.h"
 
 namespace mortier {
 namespace {
@@ -49,14 +49,14 @@ class Validator {
     checkTriangles();
     checkNoneUnused();
     sides_ = sortedSides(mesh_);
-    forEachEdge(sides_, [this](std::span<const TriangleSide> edge) { checkSharing(edge); });
+    forEachPlace(sides_, [this](std::span<const ElementSide<2>> edge) { checkSharing(edge); });
     checkAndOrientLabelledEdges();
   }
 
  private:
   // Whether the triangle runs from the smaller to the larger vertex.
-  bool rises(const TriangleSide& side) const {
-    return mesh_.triangles[side.triangle()][side.corner()] == side.edge[0];
+  bool rises(const ElementSide<2>& side) const {
+    return mesh_.triangles[side.element()][side.corner()] == side.vertices[0];
   }
 
   [[noreturn]] void fail(MeshPart part, int index, const std::string& what,
@@ -115,21 +115,21 @@ class Validator {
          "vertex " + std::to_string(v + 1) + " is unused, expected a corner of a triangle", "unused-vertex");
   }
 
-  void checkSharing(std::span<const TriangleSide> sides) const {
+  void checkSharing(std::span<const ElementSide<2>> sides) const {
     if (sides.size() < 2) return;
     const size_t several = std::min<size_t>(sides.size(), 3);
     if (several == 2 && rises(sides[0]) != rises(sides[1])) return;
     for (size_t i = 0; i < several; ++i) {
-      for (size_t j = i + 1; j < several; ++j) failIfRepeated(sides[i].triangle(), sides[j].triangle());
+      for (size_t j = i + 1; j < several; ++j) failIfRepeated(sides[i].element(), sides[j].element());
     }
-    const int t0 = sides[0].triangle(), t1 = sides[1].triangle();
-    const std::string edge = numbers(sides[0].edge);
+    const int t0 = sides[0].element(), t1 = sides[1].element();
+    const std::string edge = numbers(sides[0].vertices);
     if (several == 2)
       fail(MeshPart::triangle, t1,
            "triangles " + std::to_string(t0 + 1) + " and " + std::to_string(t1 + 1) +
                " lie on the same side of edge " + edge + ", expected one on each side",
            "overlapping-triangles");
-    fail(MeshPart::triangle, sides[2].triangle(),
+    fail(MeshPart::triangle, sides[2].element(),
          "edge " + edge + " is shared by " + std::to_string(sides.size()) + " triangles, expected 2 at most",
          "overlapping-triangles");
   }
@@ -153,12 +153,12 @@ class Validator {
         fail(MeshPart::edge, e, "edge " + std::to_string(e + 1) + " (" + numbers(edge) + ")" + what, id);
       };
       if (!isVertex(edge[0]) || !isVertex(edge[1])) failHere(", " + range());
-      const auto on = sidesOn(sides_, edge[0], edge[1]);
+      const auto on = sidesOn(sides_, edge);
       if (on.empty())
         failHere(" is not an edge of a triangle, expected an edge of the boundary", "label-inside");
       if (on.size() > 1)
         failHere(" lies between two triangles, expected an edge of the boundary", "label-inside");
-      const TriangleSide& side = on.front();
+      const ElementSide<2>& side = on.front();
       if (std::exchange(labelled[&side - sides_.data()], 1) != 0) {
         int other = 0;
         while (std::minmax(mesh_.boundaryEdges[other][0], mesh_.boundaryEdges[other][1]) !=
@@ -170,7 +170,7 @@ class Validator {
                            a.y(), b.x(), b.y(), mesh_.boundaryLabels[other], mesh_.boundaryLabels[e]),
                  "label-twice");
       }
-      const auto& v = mesh_.triangles[side.triangle()];
+      const auto& v = mesh_.triangles[side.element()];
       const std::array<int, 2> turned{v[side.corner()], v[(side.corner() + 1) % 3]};
       if (edge != turned && mesh_.hasCurve(e)) std::swap(mesh_.edgeCurves[e].from, mesh_.edgeCurves[e].to);
       edge = turned;
@@ -179,7 +179,7 @@ class Validator {
 
   TriangleMesh& mesh_;
   const FaultPlace& place_;
-  TriangleSides sides_;
+  ElementSides<2> sides_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/formatted.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 
@@ -54,25 +55,18 @@ double SampledDatum::change(double s, double t) const {
 
 namespace {
 
-SpacePoint asPoint(const Point& point) {
-  return {point.x(), point.y(), 0};
-}
-SpacePoint asPoint(const SpacePoint& point) {
-  return point;
-}
-
 /// Some of the places of a mesh.
 struct Places {
   std::vector<SpacePoint> all;
   double size = 0;
   std::vector<std::pair<int, std::vector<SpacePoint>>> sides = {};  ///< label and vertices of each side
 
-  template <class Mesh, class Sides>
-  Places(const Mesh& mesh, const Sides& boundary) : size(extent(mesh)) {
-    for (const auto& vertex : mesh.vertices) all.push_back(asPoint(vertex));
-    for (size_t e = 0; e < boundary.size(); ++e) {
+  template <class Mesh>
+  explicit Places(const Mesh& mesh) : size(extent(mesh)) {
+    for (const auto& vertex : mesh.vertices) all.push_back(asSpacePoint(vertex));
+    for (size_t e = 0; e < labelledSides(mesh).size(); ++e) {
       auto& vertices = sides.emplace_back(mesh.boundaryLabels[e], std::vector<SpacePoint>{}).second;
-      for (const int v : boundary[e]) vertices.push_back(all[v]);
+      for (const int v : labelledSides(mesh)[e]) vertices.push_back(all[v]);
     }
   }
 
@@ -85,10 +79,9 @@ struct Places {
 };
 
 std::optional<Places> placesOf(const MeshedScene& input, size_t body) {
-  if (body < input.spaceMeshes.size())
-    return Places(*input.spaceMeshes[body], input.spaceMeshes[body]->boundaryTriangles);
+  if (body < input.spaceMeshes.size()) return Places(*input.spaceMeshes[body]);
   if (input.meshes[body] == nullptr) return std::nullopt;
-  return Places(*input.meshes[body], input.meshes[body]->boundaryEdges);
+  return Places(*input.meshes[body]);
 }
 
 std::vector<SpacePoint> thinned(const std::vector<SpacePoint>& points) {
@@ -119,7 +112,7 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
         continue;
       }
       std::vector<SpacePoint> points = places->on([&](int label) { return c.actsOn(label); });
-      if (c.point) points.push_back(asPoint(*c.point));
+      if (c.point) points.push_back(asSpacePoint(*c.point));
       if (c.pointInSpace) points.push_back(*c.pointInSpace);
       const bool held = c.kind == ConditionDescription::Kind::displacement;
       data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,

@@ -115,17 +115,13 @@ void writePoints(VtuFile& file, const Body& body, const Vector& displacement, co
   file.shut("PointData");
 }
 
-const std::vector<int>& nodesOf(const Body& body) {
-  return body.space() != nullptr ? body.space()->nodes().elements : body.elementNodes().triangles;
-}
-
 /// Nodes in the middle of a side whose two ends have a value get the mean of both.
 void fillMiddles(const Body& body, std::vector<double>& values) {
   if (body.degree() == 1) return;
   constexpr std::array<std::array<int, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-  const size_t corners = body.space() != nullptr ? 4 : 3;
-  const size_t sides = body.space() != nullptr ? 6 : 3;
-  const std::vector<int>& nodes = nodesOf(body);
+  const size_t corners = body.dimension() + 1;
+  const size_t sides = corners * (corners - 1) / 2;
+  const std::vector<int>& nodes = body.nodesOfElements();
   for (size_t first = 0; first < nodes.size(); first += corners + sides)
     for (size_t side = 0; side < sides; ++side) {
       double& middle = values[nodes[first + corners + side]];
@@ -170,8 +166,8 @@ void writeCells(VtuFile& file, const Body& body) {
   constexpr uint8_t vtkQuadraticTriangle = 22;
   constexpr uint8_t vtkTetrahedron = 10;
   constexpr uint8_t vtkQuadraticTetrahedron = 24;
-  const bool space = body.space() != nullptr;
-  const std::vector<int>& nodes = nodesOf(body);
+  const bool space = body.dimension() == 3;
+  const std::vector<int>& nodes = body.nodesOfElements();
   const std::vector<int32_t> connectivity(nodes.begin(), nodes.end());
   const size_t perCell = connectivity.size() / body.elements();
   std::vector<int32_t> offsets(body.elements());
@@ -186,24 +182,20 @@ void writeCells(VtuFile& file, const Body& body) {
   file.shut("Cells");
 }
 
-const std::vector<int>& regionsOf(const Body& body) {
-  return body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions;
-}
-
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
   if (body.rigid()) {
     file.open("CellData");
-    file.integers("Int32", "region", regionsOf(body));
+    file.integers("Int32", "region", body.regions());
     file.shut("CellData");
     return;
   }
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
   const auto components = static_cast<int>(fields.stress.rows());
-  const bool space = body.space() != nullptr;
   const auto named = [&](const std::string& letter) {
-    std::vector<std::string> names = space ? std::vector<std::string>{"11", "22", "33", "12", "23", "13"}
-                                           : std::vector<std::string>{"11", "22", "12", "33"};
+    std::vector<std::string> names = components == 6
+                                         ? std::vector<std::string>{"11", "22", "33", "12", "23", "13"}
+                                         : std::vector<std::string>{"11", "22", "12", "33"};
     names.resize(components);
     for (std::string& name : names) name.insert(0, letter);
     return names;
@@ -215,15 +207,15 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
   file.array("von_mises", flat(fields.vonMises), 1);
   file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components, named("e"));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
-  file.integers("Int32", "region", regionsOf(body));
+  file.integers("Int32", "region", body.regions());
   const double energy = estimate.energy > 0 ? estimate.energy : 1;
   file.array("error", flat((estimate.error / energy).cwiseSqrt()), 1);
   file.shut("CellData");
 }
 
 /// (p, q, r) or (p, q, r, s33) by the axes; in space s11, s22, s33, s12, s23, s13.
-PointVector allCartesian(PointVector s, bool space) {
-  if (space) {
+PointVector allCartesian(PointVector s) {
+  if (s.size() == 6) {
     const SpaceStress c = toSpaceCartesian(SpaceStress(s.head<6>()));
     s.head<6>() << c[0], c[1], c[2], c[3], c[5], c[4];
     return s;
@@ -236,7 +228,6 @@ PointVector allCartesian(PointVector s, bool space) {
 
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.elements());
-  const bool space = body.space() != nullptr;
   const Eigen::Index pointsPerCell = std::max<Eigen::Index>(1, state.stress.cols() / cells);  // of a tool 0
   const Eigen::Index components = body.material().tensorComponents();
   const Matrix strain = strainOfLaw(body.material(), state);
@@ -245,12 +236,12 @@ CellFields cellFields(const Body& body, const BodyState& state) {
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
-    const PointVector stress = allCartesian(state.stress.col(point).head(components), space);
+    const PointVector stress = allCartesian(state.stress.col(point).head(components));
     fields.stress.col(cell) += weight * stress;
     fields.stressAtPoints.col(cell).segment(components * (point % pointsPerCell), components) = stress;
     fields.vonMises[cell] += weight * vonMises(state.stress.col(point).head(components));
     fields.viscoplasticStrain.col(cell) +=
-        weight * allCartesian(state.viscoplasticStrain.col(point).head(components), space);
+        weight * allCartesian(state.viscoplasticStrain.col(point).head(components));
     if (body.material().flows(state.stress, static_cast<int>(point), &strain)) fields.viscoplastic[cell] = 1;
   }
   return fields;

@@ -60,8 +60,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     text += materials(body, facts.units);
     if (body.patches() != nullptr)
       text += "material   " + body.name() + " volumetric strain averaged over " +
-              std::to_string(body.patches()->count()) + " patches of " +
-              (body.space() != nullptr ? "tetrahedra\n" : "triangles\n");
+              std::to_string(body.patches()->count()) + " patches of " + body.elementsWord() + "\n";
   }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
@@ -147,8 +146,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   double sagitta = 0;
   double size = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
-  for (const Body& body : model.bodies)
-    size = std::max(size, body.space() != nullptr ? extent(body.space()->mesh()) : extent(body.mesh()));
+  for (const Body& body : model.bodies) size = std::max(size, body.extent());
   if (sagitta > ofGeometries * size)
     text +=
         formatted("           not in it: contact between polygons that are off their curves by up to %.2g ",

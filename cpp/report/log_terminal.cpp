@@ -21,7 +21,7 @@ std::string logStepsHeader(const Units& units) {
 
 std::string logRoundsHeader(const Model& model) {
   return formatted(" round %10s  unknowns  steps  mesh error  time error  seconds\n",
-                   model.bodies.front().space() != nullptr ? "tetrahedra" : "triangles");
+                   model.bodies.front().elementsWord());
 }
 
 std::string logRound(const std::vector<RoundFacts>& rounds) {

@@ -45,7 +45,7 @@ Json bodies(const Model& model) {
     list.push_back({{"name", body.name()},
                     {"material", lawsOf(body)},
                     {"laws", body.rigid() ? Json::array() : laws(body.material())},
-                    {body.space() != nullptr ? "tetrahedra" : "triangles", body.elements()},
+                    {body.elementsWord(), body.elements()},
                     {"nodes", body.nodes()},
                     {"dofs", body.dofs()},
                     {"free_dofs", body.freeDofs()}});
@@ -197,7 +197,7 @@ Json jsonOf(const std::vector<SeveralSolutions>& several) {
 /// Where to look at, and why it is hard there.
 Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) {
   return {{"body", model.bodies[stuck.body].name()},
-          {model.bodies[stuck.body].space() != nullptr ? "tetrahedron" : "triangle", stuck.triangle},
+          {model.bodies[stuck.body].dimension() == 3 ? "tetrahedron" : "triangle", stuck.triangle},
           {"at", jsonOf(stuck.at, model.bodies[stuck.body].dimension())},
           {"material_residual", stuck.residual},
           {"time", stuck.time},
@@ -244,8 +244,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["nonmortar"] = facts.nonmortar;
   json["projection"] = facts.projection;
   json["scheme"] = facts.scheme;
-  const bool space = model.bodies.front().space() != nullptr;
-  const char* elements = space ? "tetrahedra" : "triangles";
+  const int dimension = model.bodies.front().dimension();
+  const char* elements = model.bodies.front().elementsWord();
   for (const char* count : {elements, "nodes", "dofs", "free_dofs"})
     json[count] = std::accumulate(bodyList.begin(), bodyList.end(), size_t{0},
                                   [&](size_t sum, const Json& body) { return sum + size_t(body[count]); });
@@ -283,7 +283,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     json["ambiguous_steps"] = report.ambiguousSteps;
     if (facts.solver.listSolutions) json["several_solutions"] = jsonOf(report.several);
   }
-  json["overlap"] = jsonOf(report.overlap, space ? 3 : 2);
+  json["overlap"] = jsonOf(report.overlap, dimension);
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);
   for (size_t i = 0; i < values.size(); ++i) {
@@ -293,7 +293,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     quantity["estimated_error"] = error.obstacle.empty() ? Json(error.size) : Json(nullptr);
     if (!error.obstacle.empty()) quantity["no_estimate"] = error.obstacle;
     if (const auto place = placeOf(facts.quantities[i], model, state))
-      quantity["at"] = jsonOf(*place, space ? 3 : 2);
+      quantity["at"] = jsonOf(*place, dimension);
     if (error.order > 0) quantity["unbounded_order"] = error.order;
     if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
     const std::optional<RoundChange> change = changeInRounds(facts, i);

@@ -145,11 +145,11 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
       refuse(label + " is no side of a contact with friction, expected one");
     if (quantity.kind == Quantity::Kind::displacement) {
       if (const SpaceElements* space = body.space())
-        quantity.mean = description.pointInSpace ? meanAt(*space, *description.pointInSpace)
-                                                 : meanOn(*space, quantity.label);
+        quantity.mean = quantity.point ? meanAt(space->mesh(), space->nodes(), *quantity.point)
+                                       : meanOn(space->mesh(), space->nodes(), quantity.label);
       else
-        quantity.mean = description.point
-                            ? meanAt(body.mesh(), body.elementNodes(), *description.point)
+        quantity.mean = quantity.point
+                            ? meanAt(body.mesh(), body.elementNodes(), quantity.point->head<2>())
                             : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty()) refuse("point = " + point + ", expected a point of body " + body.name());
     }
@@ -182,46 +182,28 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {
   const ContactPair pair = pairOf(scene, contact);
+  const Body& nonmortar = model.bodies[pair.nonmortar.body];
+  const bool inSpace = scene.inSpace();
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   InterfaceOptions options;
   options.initial = contact.initial;
   options.friction = contact.friction;
-  if (scene.inSpace()) {
-    if (contact.gap) {
-      const Body& body = model.bodies[pair.nonmortar.body];
-      std::vector<SpacePoint> places;
-      for (const int node : body.boundaryNodes(pair.nonmortar.label))
-        places.push_back(body.placeOfNode(node));
-      requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
-      options.gapInSpace = finiteValue(*contact.gap, true);
-      options.gapMoves = contact.gap->inTime;
-    }
-    options.stabilised = contact.stabilised;
-    options.mortarCompliance =
-        surfaceCompliance(scene, contact.mortar(), model.bodies[pair.mortar.body].space()->mesh());
-    return addAt(contact, [&] {
-      addInterface(model, pair, options);
-      requireMemory(memoryNeed(model, scene.solver), contact.friction.any());
-    });
-  }
-  std::vector<const TriangleMesh*> meshes;
-  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
+  options.stabilised = contact.stabilised;
   options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
-  options.stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
-  options.mortarCompliance = surfaceCompliance(scene, contact.mortar(), meshes);
-  options.stabilised = contact.stabilised;
+  if (!inSpace) options.stiffness = stiffnessRatio(scene, contact.nonmortar(), contact.mortar(), meshes);
+  options.mortarCompliance =
+      inSpace ? surfaceCompliance(scene, contact.mortar(), model.bodies[pair.mortar.body].space()->mesh())
+              : surfaceCompliance(scene, contact.mortar(), meshes);
   if (contact.gap) {
-    const Body& body = model.bodies[pair.nonmortar.body];
-    std::vector<Point> points;
-    for (const BoundaryStretch& stretch : body.elementNodes().boundary)
-      if (body.mesh().boundaryLabels[stretch.edge] == pair.nonmortar.label)
-        for (const int node : stretch.nodes) points.push_back(body.elementNodes().places[node]);
-    requireFinite(*contact.gap, points, {0, contact.gap->inTime ? scene.time.end : 0});
-    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
-    if (contact.gap->inTime)
-      options.gapInTime = [value = finiteValue(*contact.gap)](const Point& x, double t) {
-        return value(x.x(), x.y(), t);
-      };
+    nonmortar.withMesh([&](const auto&, const auto& nodes) {
+      std::remove_cvref_t<decltype(nodes.places)> places;
+      for (const int node : nonmortar.boundaryNodes(pair.nonmortar.label))
+        places.push_back(nodes.places[node]);
+      requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
+    });
+    options.gap = finiteValue(*contact.gap, inSpace);
   }
   std::vector<ContactPair> pairs{pair};
   std::vector<bool> rough{contact.friction.any()};
@@ -230,9 +212,9 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     rough.push_back(interface.hasFriction());
   }
   addAt(contact, [&] {
-    requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
+    if (!inSpace) requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
     addInterface(model, pair, options);
-    if (contact.gap) model.interfaces.back().setGiven(finiteValue(*contact.gap));
+    if (inSpace) requireMemory(memoryNeed(model, scene.solver), contact.friction.any());
   });
 }
 

@@ -28,19 +28,12 @@ auto placesOf(const ConditionDescription& condition, const Mesh& mesh) {
   using Place = typename decltype(mesh.vertices)::value_type;
   if (const auto& point = pointOf<Place>(condition)) return std::vector<Place>{*point};
   std::vector<Place> places;
-  const auto addMiddles = [&](const auto& sides) {
-    for (const auto& side : sides) {
+  if (condition.kind == ConditionDescription::Kind::traction)
+    for (const auto& side : sidesWith(mesh, condition.label)) {
       Place sum = Place::Zero();
       for (const int v : side) sum += mesh.vertices[v];
       places.push_back(sum / static_cast<double>(side.size()));
     }
-  };
-  if (condition.kind == ConditionDescription::Kind::traction) {
-    if constexpr (std::is_same_v<Place, Point>)
-      addMiddles(edgesOn(mesh, condition.label));
-    else
-      addMiddles(trianglesOn(mesh, condition.label));
-  }
   for (const int v : verticesOn(mesh, condition.label)) places.push_back(mesh.vertices[v]);
   return places;
 }

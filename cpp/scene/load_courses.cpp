@@ -17,9 +17,8 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
                   const std::function<void(const Expression&, const LoadPlaces&)>& work) {
   const auto call = [&](const Expression& expression, const Body& body, const int* label) {
     if (!expression.inTime) return;
-    const LoadPlaces places = body.space() != nullptr
-                                  ? loadPlaces(expression, body.space()->mesh(), label, scene.time.end)
-                                  : loadPlaces(expression, body.mesh(), label, scene.time.end);
+    const LoadPlaces places = body.withMesh(
+        [&](const auto& mesh, const auto&) { return loadPlaces(expression, mesh, label, scene.time.end); });
     if (!places.points.empty()) work(expression, places);
   };
   for (size_t b = 0; b < scene.bodies.size(); ++b) {

@@ -36,8 +36,8 @@ struct LoadPlaces {
 };
 
 /// \param label  of the edges or triangles where it acts; all of the mesh where null
-LoadPlaces loadPlaces(const Expression& datum, const TriangleMesh& mesh, const int* label, double end);
-LoadPlaces loadPlaces(const Expression& datum, const TetrahedronMesh& mesh, const int* label, double end);
+template <class Mesh>
+LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, double end);
 /// Of one that acts at a point.
 LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double end);
 

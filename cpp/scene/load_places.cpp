@@ -237,18 +237,18 @@ LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double e
   return found(datum, {point}, {{{point, point}, false, {0, end}}}, end);
 }
 
-LoadPlaces loadPlaces(const Expression& datum, const TriangleMesh& mesh, const int* label, double end) {
-  std::vector<SpacePoint> vertices;
-  for (const Point& p : mesh.vertices) vertices.emplace_back(p.x(), p.y(), 0);
+template <class Mesh>
+LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, double end) {
+  Parts parts;
+  for (const auto& p : mesh.vertices) parts.vertices.push_back(asSpacePoint(p));
   if (label != nullptr)
-    return placesIn({std::move(vertices), listsOf(edgesOn(mesh, *label)), {}}, datum, label, end);
-  return placesIn({std::move(vertices), {}, listsOf(mesh.triangles)}, datum, label, end);
+    parts.sides = listsOf(sidesWith(mesh, *label));
+  else
+    parts.elements = listsOf(elementsOf(mesh));
+  return placesIn(parts, datum, label, end);
 }
 
-LoadPlaces loadPlaces(const Expression& datum, const TetrahedronMesh& mesh, const int* label, double end) {
-  if (label != nullptr)
-    return placesIn({mesh.vertices, listsOf(trianglesOn(mesh, *label)), {}}, datum, label, end);
-  return placesIn({mesh.vertices, {}, listsOf(mesh.tetrahedra)}, datum, label, end);
-}
+template LoadPlaces loadPlaces(const Expression&, const TriangleMesh&, const int*, double);
+template LoadPlaces loadPlaces(const Expression&, const TetrahedronMesh&, const int*, double);
 
 }  // namespace mortier

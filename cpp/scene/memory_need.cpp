@@ -21,7 +21,7 @@ struct SideSize {
 
 SideSize sizeOf(const TriangleMesh& mesh, int label, int degree, bool rough) {
   constexpr double parallel = 1e-9;
-  const auto edges = edgesOn(mesh, label);
+  const auto edges = sidesWith(mesh, label);
   bool alongX = true;
   bool alongY = true;
   for (const auto& [a, b] : edges) {

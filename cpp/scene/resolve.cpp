@@ -54,17 +54,15 @@ int regionLabel(const Mesh& mesh, int label, const std::string& name, const std:
                    joined(wordsFor(labels)) + " (regions of " + mesh.name + ")");
 }
 
-/// \param elements  of the mesh, by their vertices
-template <class Mesh, class Elements, class Place>
-Place vertexPointOf(const Mesh& mesh, const Elements& elements, const Place& point,
-                    const std::string& place) {
+template <class Mesh, class Place>
+Place vertexPointOf(const Mesh& mesh, const Place& point, const std::string& place) {
   constexpr double near = 1e-3;
   const auto distance = [&](int vertex) { return (mesh.vertices[vertex] - point).norm(); };
   int nearest = 0;
   for (int v = 1; v < static_cast<int>(mesh.vertices.size()); ++v)
     if (distance(v) < distance(nearest)) nearest = v;
   double shortestEdge = std::numeric_limits<double>::infinity();
-  for (const auto& element : elements)
+  for (const auto& element : elementsOf(mesh))
     if (std::find(element.begin(), element.end(), nearest) != element.end())
       for (const int other : element)
         if (other != nearest)
@@ -121,10 +119,6 @@ std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& mes
   return pointers;
 }
 
-SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, const std::string& place) {
-  return vertexPointOf(mesh, mesh.tetrahedra, point, place);
-}
-
 /// Gives the mesh of a body, of groups that share sides or elements, those that the scene names. \pre labels
 /// are numbers. \throws InputError
 template <class Mesh>
@@ -157,7 +151,7 @@ void findPlaces(SceneDescription& scene, std::vector<Mesh>& meshes) {
       },
       [&]<class Place>(int body, Place& point, const std::string& where) {
         if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), Place&>)
-          point = vertexPoint(meshes[body], point, place(body, where));
+          point = vertexPointOf(meshes[body], point, place(body, where));
       });
   for (size_t b = 0; b < meshes.size(); ++b) chooseGroupsOf(scene, static_cast<int>(b), meshes[b]);
 }
@@ -165,41 +159,43 @@ void findPlaces(SceneDescription& scene, std::vector<Mesh>& meshes) {
 }  // namespace
 
 Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place) {
-  return vertexPointOf(mesh, mesh.triangles, point, place);
+  return vertexPointOf(mesh, point, place);
 }
 
-TetrahedronMesh spaceMeshOf(const BodyDescription& body) {
-  if (!body.mesh.inSpace && !body.mesh.shape) return readSpaceMesh(body.mesh);
-  try {
-    return readSpaceMesh(body.mesh);
-  } catch (const InputError& error) {
-    throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
-  }
-}
+namespace {
 
-TriangleMesh meshOf(const BodyDescription& body) {
-  if (!body.mesh.shape) return readMesh(body.mesh);
+/// \param read  readMesh or readSpaceMesh
+template <class Read>
+auto meshBy(const Read& read, const BodyDescription& body) {
   try {
-    return shapeMesh(*body.mesh.shape);
+    return read(body.mesh);
   } catch (const InputError& error) {
+    if (!body.mesh.inSpace && !body.mesh.shape) throw;  // which names the file
     throw InputError(body.meshWhere + (body.isTool() ? ": tool " : ": body ") + body.name +
                      (body.isTool() ? ": shape: " : ": mesh: ") + error.what());
   }
 }
 
+}  // namespace
+
+TriangleMesh meshOf(const BodyDescription& body) {
+  return meshBy(readMesh, body);
+}
+
 ResolvedScene resolveScene(SceneDescription scene) {
   ResolvedScene resolved{std::move(scene), {}, {}};
   SceneDescription& description = resolved.description;
+  const auto read = [&](const auto& by, auto& meshes) {
+    for (const BodyDescription& body : description.bodies) meshes.push_back(meshBy(by, body));
+    findPlaces(description, meshes);
+  };
   if (description.inSpace()) {
-    for (const BodyDescription& body : description.bodies) resolved.spaceMeshes.push_back(spaceMeshOf(body));
-    findPlaces(description, resolved.spaceMeshes);
+    read(readSpaceMesh, resolved.spaceMeshes);
     decideSides(description, resolved.spaceMeshes);
-    decideVolumes(description);
-    return resolved;
+  } else {
+    read(readMesh, resolved.meshes);
+    decideSides(description, pointersTo(resolved.meshes));
   }
-  for (const BodyDescription& body : description.bodies) resolved.meshes.push_back(meshOf(body));
-  findPlaces(description, resolved.meshes);
-  decideSides(description, pointersTo(resolved.meshes));
   decideVolumes(description);
   return resolved;
 }

@@ -21,7 +21,6 @@ struct ResolvedScene {
 
 /// Reads or makes the mesh of a body. \throws InputError
 TriangleMesh meshOf(const BodyDescription& body);
-TetrahedronMesh spaceMeshOf(const BodyDescription& body);
 
 /// Reads the meshes and decides. \throws InputError with one line that names the scene's file and line, or
 /// the mesh's: unreadable meshes, labels and points that a mesh does not have.

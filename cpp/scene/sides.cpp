@@ -8,22 +8,25 @@
 #include "base/digits.h"
 #include "fem/supports.h"
 #include "mesh/boundary_line.h"
+#include "mesh/simplices.h"
 #include "scene/document.h"
 #include "scene/resolve.h"
 
 namespace mortier {
 namespace {
 
-/// Mean length of the edges of a side; none where its mesh or its label is missing.
-std::optional<double> meanEdge(const SceneDescription& scene, const SideDescription& side,
-                               const std::vector<const TriangleMesh*>& meshes) {
-  const TriangleMesh* mesh = meshes[bodyIndex(scene, side.body)];
-  if (mesh == nullptr) return std::nullopt;
+/// Mean length of the edges of the sides with a label; none where the mesh lacks it.
+template <class Mesh>
+std::optional<double> meanEdge(const Mesh& mesh, int label) {
   double length = 0;
-  const auto edges = edgesOn(*mesh, side.label);
-  if (edges.empty()) return std::nullopt;
-  for (const auto& [a, b] : edges) length += (mesh->vertices[b] - mesh->vertices[a]).norm();
-  return length / static_cast<double>(edges.size());
+  size_t edges = 0;
+  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i) {
+    const auto& side = labelledSides(mesh)[i];
+    if (mesh.boundaryLabels[i] != label) continue;
+    for (size_t k = 0; k < (side.size() > 2 ? side.size() : 1); ++k, ++edges)
+      length += (mesh.vertices[side[(k + 1) % side.size()]] - mesh.vertices[side[k]]).norm();
+  }
+  return edges > 0 ? std::optional(length / static_cast<double>(edges)) : std::nullopt;
 }
 
 /// Whether the normal motion of all vertices of a side is prescribed: a wall, whatever its modulus.
@@ -34,41 +37,13 @@ bool isWall(const SceneDescription& scene, const SideDescription& side,
   if (meshes[body] == nullptr) return false;
   const auto& vertices = meshes[body]->vertices;
   const std::vector<char> held = heldDofs(*meshes[body], scene.bodies[body].conditions);
-  const auto edges = edgesOn(*meshes[body], side.label);
+  const auto edges = sidesWith(*meshes[body], side.label);
   return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
     const auto normal = axisOf(alongNormal, vertices[edge[0]], vertices[edge[1]]);
     return std::all_of(edge.begin(), edge.end(), [&](int v) {
       return normal ? held[2 * v + *normal] != 0 : held[2 * v] != 0 && held[2 * v + 1] != 0;
     });
   });
-}
-
-/// Of the elements that have one of these sides.
-template <size_t N>
-std::set<int> regionsBeside(const std::vector<std::array<int, N + 1>>& elements,
-                            const std::vector<int>& regions, const std::vector<std::array<int, N>>& sides) {
-  std::set<std::array<int, N>> beside;
-  for (std::array<int, N> side : sides) {
-    std::sort(side.begin(), side.end());
-    beside.insert(side);
-  }
-  std::set<int> result;
-  for (size_t e = 0; e < elements.size(); ++e)
-    for (size_t without = 0; without <= N; ++without) {
-      std::array<int, N> side;
-      for (size_t k = 0; k < N; ++k) side[k] = elements[e][(without + k + 1) % (N + 1)];
-      std::sort(side.begin(), side.end());
-      if (beside.contains(side)) result.insert(regions[e]);
-    }
-  return result;
-}
-
-std::set<int> regionsBeside(const TriangleMesh& mesh, int label) {
-  return regionsBeside<2>(mesh.triangles, mesh.regions, edgesOn(mesh, label));
-}
-
-std::set<int> regionsBeside(const TetrahedronMesh& mesh, int label) {
-  return regionsBeside<3>(mesh.tetrahedra, mesh.regions, trianglesOn(mesh, label));
 }
 
 /// Of a body in a half-plane or half-space, by the stiffest of its regions at the side.
@@ -82,7 +57,10 @@ double bodyCompliance(const SceneDescription& scene, const SideDescription& side
   };
   if (body.regions.empty()) return compliance(body.material);
   double least = std::numeric_limits<double>::infinity();
-  for (const int region : regionsBeside(mesh, side.label)) {
+  std::set<int> regions;  // beside it
+  for (const auto& [vertices, element] : elementsBehind(mesh, side.label))
+    regions.insert(mesh.regions[element]);
+  for (const int region : regions) {
     const auto own = std::find_if(
         body.regions.begin(), body.regions.end(),
         [&](const RegionDescription& each) { return each.label == region && each.material.has_value(); });
@@ -138,36 +116,40 @@ void decideSide(ContactDescription& contact, double edge1, double edge2, double 
   contact.nonmortarSide = second != contact.otherSide ? 1 : 0;
 }
 
-}  // namespace
-
-void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+/// \param edgeOf  mean length of the edges of a side, if it is known \param stiffness  as above
+template <class EdgeOf, class Stiffness>
+void decideSides(SceneDescription& scene, const EdgeOf& edgeOf, const Stiffness& stiffness) {
   forEachPair(scene, [&](ContactDescription& contact) {
     if (contact.nonmortarSide) return;
-    const auto& [side1, side2] = contact.sides;
-    const auto edge1 = meanEdge(scene, side1, meshes);
-    const auto edge2 = meanEdge(scene, side2, meshes);
-    if (!edge1 || !edge2) return;
-    decideSide(
-        contact, *edge1, *edge2,
-        contact.variant == CouplingKind::interpolation ? 1 : stiffnessRatio(scene, side1, side2, meshes));
+    const std::optional<double> edge1 = edgeOf(contact.sides[0]);
+    const std::optional<double> edge2 = edgeOf(contact.sides[1]);
+    if (edge1 && edge2) decideSide(contact, *edge1, *edge2, stiffness(contact));
   });
 }
 
+}  // namespace
+
+void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+  decideSides(
+      scene,
+      [&](const SideDescription& side) {
+        const TriangleMesh* mesh = meshes[bodyIndex(scene, side.body)];
+        return mesh != nullptr ? meanEdge(*mesh, side.label) : std::nullopt;
+      },
+      [&](const ContactDescription& contact) {
+        return contact.variant == CouplingKind::interpolation
+                   ? 1
+                   : stiffnessRatio(scene, contact.sides[0], contact.sides[1], meshes);
+      });
+}
+
 void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& meshes) {
-  const auto edgeOf = [&](const SideDescription& side) {
-    const TetrahedronMesh& mesh = meshes[bodyIndex(scene, side.body)];
-    const auto triangles = trianglesOn(mesh, side.label);
-    double length = 0;
-    for (const auto& [a, b, c] : triangles)
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-        length += (mesh.vertices[to] - mesh.vertices[from]).norm();
-    return length / (3 * static_cast<double>(triangles.size()));
-  };
-  forEachPair(scene, [&](ContactDescription& contact) {
-    if (contact.nonmortarSide) return;
-    const auto& [side1, side2] = contact.sides;
-    decideSide(contact, edgeOf(side1), edgeOf(side2), young(scene, side1) / young(scene, side2));
-  });
+  decideSides(
+      scene,
+      [&](const SideDescription& side) { return meanEdge(meshes[bodyIndex(scene, side.body)], side.label); },
+      [&](const ContactDescription& contact) {
+        return young(scene, contact.sides[0]) / young(scene, contact.sides[1]);
+      });
 }
 
 std::optional<int> axisOf(int component, const Point& from, const Point& to) {
@@ -190,7 +172,7 @@ std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<Condition
       if (vertex >= 0) held[2 * vertex + condition.component] = 1;
       continue;
     }
-    for (const auto& [a, b] : edgesOn(mesh, condition.label)) {
+    for (const auto& [a, b] : sidesWith(mesh, condition.label)) {
       if (const auto axis = axisOf(condition.component, mesh.vertices[a], mesh.vertices[b]))
         for (const int v : {a, b}) held[2 * v + *axis] = 1;
     }

@@ -126,8 +126,9 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
         const auto slipped = slip[k].segment(m * i, m);
         beyondBound.add(tangential.norm() - bound[i]);
         if (!(bound[i] > 0)) continue;
-        const Vector direction = sign == 0 ? Vector::Zero(m) : m == 1 ? Vector::Constant(1, sign)
-                                                                    : Vector(tangential / bound[i]);
+        const Vector direction = sign == 0 ? Vector::Zero(m)
+                                 : m == 1  ? Vector::Constant(1, sign)
+                                           : Vector(tangential / bound[i]);
         const double against = -direction.dot(slipped);
         const double aside = (slipped + against * direction).norm();  // all of it where the node sticks
         wrongSlip.add(moved(std::max(aside, against), along + m * i));

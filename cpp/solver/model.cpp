@@ -98,12 +98,16 @@ BodiesOfPair bodiesOf(const Model& model, const ContactPair& pair) {
   return both;
 }
 
-ContactMesh meshOf(const Body& body) {
-  return {body.mesh(), body.elementNodes()};
-}
-
-SpaceContactMesh spaceMeshOf(const Body& body) {
-  return {body.space()->mesh(), body.space()->nodes()};
+/// Calls work with the mesh and the nodes of both.
+template <class Work>
+void withMeshes(const BodiesOfPair& of, const Work& work) {
+  const auto& [nonmortar, mortar] = of;
+  if (const SpaceElements* space = nonmortar.space())
+    work(SpaceContactMesh{space->mesh(), space->nodes()},
+         SpaceContactMesh{mortar.space()->mesh(), mortar.space()->nodes()});
+  else
+    work(ContactMesh{nonmortar.mesh(), nonmortar.elementNodes()},
+         ContactMesh{mortar.mesh(), mortar.elementNodes()});
 }
 
 }  // namespace
@@ -147,41 +151,34 @@ std::vector<SpacePoint> fixedDirections(const Body& body, int node) {
 }
 
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
-  const auto& [nonmortar, mortar] = bodiesOf(model, pair);
-  if (nonmortar.space() != nullptr) {
-    model.interfaces.push_back(ContactInterface::inSpace(
-        pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar),
-        {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
-         [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }, options.gapInSpace,
-         options.gapMoves, options.mortarCompliance, options.stabilised, options.friction,
-         [&](int node) { return fixedDirections(nonmortar, node); },
-         [&](int node) { return fixedDirections(mortar, node); }}));
-    return;
-  }
-  options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };
-  options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, {n.x(), n.y(), 0}); };
-  model.interfaces.emplace_back(pair, meshOf(nonmortar), meshOf(mortar), options);
+  const BodiesOfPair both = bodiesOf(model, pair);
+  options.nonmortarHeld = [&](int node, const SpacePoint& n) { return holds(both.nonmortar, node, n); };
+  options.mortarHeld = [&](int node, const SpacePoint& n) { return holds(both.mortar, node, n); };
+  options.nonmortarFixed = [&](int node) { return fixedDirections(both.nonmortar, node); };
+  options.mortarFixed = [&](int node) { return fixedDirections(both.mortar, node); };
+  withMeshes(both, [&](const auto& nonmortar, const auto& mortar) {
+    model.interfaces.emplace_back(pair, nonmortar, mortar, options);
+  });
 }
 
 void addTie(Model& model, const ContactPair& pair) {
-  const auto& [nonmortar, mortar] = bodiesOf(model, pair);
+  const BodiesOfPair both = bodiesOf(model, pair);
   std::set<int> taken;
   for (const Tie& other : model.ties)
     if (other.pair().nonmortar.body == pair.nonmortar.body)
       taken.insert(other.nonmortarNodes().begin(), other.nonmortarNodes().end());
   TieOptions options;
-  options.nonmortarHeld = [&](int node, const SpacePoint& d) { return holds(nonmortar, node, d); };
-  options.mortarHeld = [&](int node, const SpacePoint& d) { return holds(mortar, node, d); };
+  options.nonmortarHeld = [&](int node, const SpacePoint& d) { return holds(both.nonmortar, node, d); };
+  options.mortarHeld = [&](int node, const SpacePoint& d) { return holds(both.mortar, node, d); };
   options.taken = [&](int node) { return taken.contains(node); };
   options.frame = [&](int node) {
-    const Eigen::Matrix3d* turned = nonmortar.supports().frameOf(node);
+    const Eigen::Matrix3d* turned = both.nonmortar.supports().frameOf(node);
     return turned == nullptr ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : *turned;
   };
-  options.axisymmetric = nonmortar.axisymmetric();
-  if (nonmortar.space() != nullptr)
-    model.ties.emplace_back(pair, spaceMeshOf(nonmortar), spaceMeshOf(mortar), options);
-  else
-    model.ties.emplace_back(pair, meshOf(nonmortar), meshOf(mortar), options);
+  options.axisymmetric = both.nonmortar.axisymmetric();
+  withMeshes(both, [&](const auto& nonmortar, const auto& mortar) {
+    model.ties.emplace_back(pair, nonmortar, mortar, options);
+  });
 }
 
 }  // namespace mortier

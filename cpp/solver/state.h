@@ -37,7 +37,7 @@ struct State {
   std::vector<std::vector<signed char>> slipping;  ///< sign of t where the node slipped last, 0: it stuck
   double frictionWork = 0;                         ///< dissipated by friction so far [J/m]
   std::vector<double> frictionWorkOf;              ///< the same by interfaces; 0 without friction
-  double gapWork = 0;  ///< done on the bodies so far by distances that change in time [J/m]
+  double gapWork = 0;                 ///< done on the bodies so far by distances that change in time [J/m]
   std::vector<Vector> tieForce = {};  ///< per tie and row [N/m]
 };
 

@@ -26,9 +26,10 @@ Matrix directionsOf(const ContactProblem& problem) {
     const int corners = components == 1 ? 2 : sides;
     for (int i = 0; i < corners; ++i) {
       const double angle = 2 * M_PI * i / corners;
-      const Vector way = components == 1 ? Vector((1 - 2 * i) * along)
-                                         : Vector(along * Point(std::cos(angle), std::sin(angle)) /
-                                                  std::cos(M_PI / corners));
+      const Vector way =
+          components == 1
+              ? Vector((1 - 2 * i) * along)
+              : Vector(along * Point(std::cos(angle), std::sin(angle)) / std::cos(M_PI / corners));
       add(problem.G.row(node[k]).transpose() + law.coefficient[row] * way);
       if (law.limit[row] > 0) add(way);
     }

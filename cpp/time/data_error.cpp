@@ -29,7 +29,7 @@ std::vector<Point> placesOf(const Body& body, size_t edge) {
 
 std::vector<Point> placesOfTriangle(const Body& body, size_t triangle) {
   std::vector<Point> places;
-  for (int a = 0; a < body.elementNodes().perTriangle(); ++a)
+  for (int a = 0; a < body.elementNodes().perElement(); ++a)
     places.push_back(body.elementNodes().places[body.elementNodes().of(triangle)[a]]);
   return places;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/simplices.h"
+
 namespace mortier {
 
 ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b) {
@@ -65,16 +67,15 @@ ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t bod
 double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
   const Body& in = model_.bodies[body];
   const size_t points = in.pointsOfTriangle();
-  const auto over = [&]<int dimension>(const auto& elements) {
+  return in.withMesh([&]<class Mesh>(const Mesh& mesh, const auto&) {
+    constexpr int dimension = ofTetrahedra<Mesh> ? 3 : 2;
     double sum = 0;
     for (size_t i = 0; i < in.weights().size(); ++i)
-      for (const int vertex : elements[i / points])
+      for (const int vertex : elementsOf(mesh)[i / points])
         sum += in.weights()[i] / (dimension + 1) / area_ *
                displacement.segment<dimension>(dimension * vertex).squaredNorm();
     return sum;
-  };
-  if (in.space() != nullptr) return over.template operator()<3>(in.space()->mesh().tetrahedra);
-  return over.template operator()<2>(in.mesh().triangles);
+  });
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const State& state) const {

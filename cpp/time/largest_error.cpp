@@ -17,13 +17,6 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-/// Nodes of an element, and how many.
-std::pair<const int*, int> nodesOf(const Body& body, size_t element) {
-  if (const SpaceElements* space = body.space())
-    return {space->nodes().of(element), space->nodes().perElement()};
-  return {body.elementNodes().of(element), body.elementNodes().perTriangle()};
-}
-
 /// The element of a stress.
 size_t elementOf(const Body& body, const PlaceOfLargest& largest) {
   return static_cast<size_t>(largest.row) / (static_cast<size_t>(body.points()) / body.elements());
@@ -31,10 +24,9 @@ size_t elementOf(const Body& body, const PlaceOfLargest& largest) {
 
 /// From the place of a stress to the farthest node of its element.
 double reachOf(const Body& body, const PlaceOfLargest& largest) {
-  const auto [nodes, count] = nodesOf(body, elementOf(body, largest));
   double reach = 0;
-  for (int k = 0; k < count; ++k)
-    reach = std::max(reach, (body.placeOfNode(nodes[k]) - largest.place).norm());
+  for (const int node : body.nodesOf(elementOf(body, largest)))
+    reach = std::max(reach, (body.placeOfNode(node) - largest.place).norm());
   return reach;
 }
 
@@ -59,9 +51,8 @@ double errorAround(const Body& body, size_t b, const std::vector<int>& nodes, Cu
   double square = 0;
   double energy = 0;
   for (size_t element = 0; element < body.elements(); ++element) {
-    const auto [own, count] = nodesOf(body, element);
-    if (std::none_of(own, own + count,
-                     [&](int node) { return std::count(nodes.begin(), nodes.end(), node) > 0; }))
+    if (std::ranges::none_of(body.nodesOf(element),
+                             [&](int node) { return std::ranges::count(nodes, node) > 0; }))
       continue;
     square += errors[static_cast<Eigen::Index>(element)];
     for (size_t point = element * points; point < (element + 1) * points; ++point) {
@@ -79,19 +70,12 @@ double errorOfPressure(const PlaceOfLargest& largest, const Model& model, Curren
   const auto b = static_cast<size_t>(interface.pair().nonmortar.body);
   const Body& body = model.bodies[b];
   const int node = interface.nonmortarNodes()[largest.row];
-  const auto placeIn = [&](size_t element) {
-    const auto [nodes, count] = nodesOf(body, element);
-    return std::pair(std::find(nodes, nodes + count, node) - nodes, count);
-  };
-  for (size_t element = 0; element < body.elements(); ++element)
-    if (const auto [place, count] = placeIn(element); place < count) {
-      const double recovered =
-          across(body, error.recovered(b).col(count * static_cast<Eigen::Index>(element) + place),
-                 normalAt(interface, static_cast<int>(largest.row)));
-      return std::max(std::abs(largest.value + recovered),
-                      largest.value * errorAround(body, b, {node}, error));
-    }
-  return 0;
+  const std::vector<int>& nodes = body.nodesOfElements();
+  const auto found = std::ranges::find(nodes, node);
+  if (found == nodes.end()) return 0;
+  const double recovered =
+      across(body, error.recovered(b).col(found - nodes.begin()), interface.normals()[largest.row]);
+  return std::max(std::abs(largest.value + recovered), largest.value * errorAround(body, b, {node}, error));
 }
 
 /// How far the largest recovered von Mises stress at the nodes of the element, and that of the body, are from
@@ -101,7 +85,7 @@ double errorOfMises(const PlaceOfLargest& largest, const Quantity& quantity, con
   const Body& body = model.bodies[quantity.body];
   const auto b = static_cast<size_t>(quantity.body);
   const size_t element = elementOf(body, largest);
-  const auto [nodes, count] = nodesOf(body, element);
+  const std::span<const int> nodes = body.nodesOf(element);
   const Matrix recovered = error.recovered(b);
   const Eigen::Index tensor = body.material().tensorComponents();
   double own = 0;
@@ -109,10 +93,10 @@ double errorOfMises(const PlaceOfLargest& largest, const Quantity& quantity, con
   for (Eigen::Index i = 0; i < recovered.cols(); ++i) {
     const double there = vonMises(recovered.col(i).head(tensor));
     all = std::max(all, there);
-    if (static_cast<size_t>(i) / count == element) own = std::max(own, there);
+    if (static_cast<size_t>(i) / nodes.size() == element) own = std::max(own, there);
   }
   return std::max({std::abs(own - largest.value), std::abs(all - largest.value),
-                   largest.value * errorAround(body, b, {nodes, nodes + count}, error)});
+                   largest.value * errorAround(body, b, {nodes.begin(), nodes.end()}, error)});
 }
 
 }  // namespace

@@ -94,9 +94,8 @@ Weights meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, b
   return weights;
 }
 
-Weights meanAt(const SpaceElements& elements, const SpacePoint& point) {
+Weights meanAt(const TetrahedronMesh& mesh, const SpaceNodes& nodes, const SpacePoint& point) {
   constexpr double rounding = 1e-9;  // of a tetrahedron: a point on the boundary is inside
-  const TetrahedronMesh& mesh = elements.mesh();
   for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
     std::array<SpacePoint, 4> x;
     for (int k = 0; k < 4; ++k) x[k] = mesh.vertices[mesh.tetrahedra[e][k]];
@@ -104,10 +103,10 @@ Weights meanAt(const SpaceElements& elements, const SpacePoint& point) {
     SpaceBarycentric at;
     for (int k = 0; k < 4; ++k) at[k] = (k == 0 ? 1 : 0) + geometry.gradients.col(k).dot(point - x[0]);
     if (*std::min_element(at.begin(), at.end()) < -rounding) continue;
-    return withSpaceElement(elements.nodes().degree, [&](auto element) {
+    return withSpaceElement(nodes.degree, [&](auto element) {
       Weights weights;
       const auto shapes = decltype(element)::shapes(at);
-      for (size_t a = 0; a < shapes.size(); ++a) weights.emplace_back(elements.nodes().of(e)[a], shapes[a]);
+      for (size_t a = 0; a < shapes.size(); ++a) weights.emplace_back(nodes.of(e)[a], shapes[a]);
       return weights;
     });
   }
@@ -115,12 +114,11 @@ Weights meanAt(const SpaceElements& elements, const SpacePoint& point) {
 }
 
 // On a triangle linear functions have the mean 1/3, quadratic ones 0 at vertices and 1/3 at middles.
-Weights meanOn(const SpaceElements& elements, int label) {
-  const SpaceNodes& nodes = elements.nodes();
+Weights meanOn(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label) {
   std::map<int, double> areas;
   double sum = 0;
   for (size_t i = 0; i < nodes.faces.size(); ++i) {
-    if (elements.mesh().boundaryLabels[i] != label) continue;
+    if (mesh.boundaryLabels[i] != label) continue;
     const std::array<int, 6>& face = nodes.faces[i];
     const SpacePoint& x = nodes.places[face[0]];
     const double area = (nodes.places[face[1]] - x).cross(nodes.places[face[2]] - x).norm() / 2;

@@ -47,8 +47,9 @@ int rowOf(const ContactInterface& interface, int node, const Point& normal) {
   int row = -1;
   double best = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < interface.rows(); ++i)
-    if (interface.nonmortarNodes()[i] == node && interface.normals()[i].dot(normal) > best) {
-      best = interface.normals()[i].dot(normal);
+    if (const double along = interface.normals()[i].head<2>().dot(normal);
+        interface.nonmortarNodes()[i] == node && along > best) {
+      best = along;
       row = i;
     }
   return row;
@@ -98,7 +99,7 @@ std::vector<Vector> meanPressureShares(const Model& model, int body, int label) 
   const TetrahedronMesh& mesh = model.bodies[body].space()->mesh();
   const std::vector<SpacePoint>& x = mesh.vertices;
   double area = 0;
-  for (const auto& [a, b, c] : trianglesOn(mesh, label)) area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
+  for (const auto& [a, b, c] : sidesWith(mesh, label)) area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
   std::vector<Vector> shares;
   for (const ContactInterface& interface : model.interfaces)
     shares.emplace_back(

@@ -65,9 +65,8 @@ MeshErrorEstimator::MeshErrorEstimator(const Model& model, Threads& threads) : m
 void MeshErrorEstimator::addSides(int body, int label) {
   const auto [place, isNew] = behind_.try_emplace({body, label});
   if (!isNew) return;
-  const SpaceElements* space = model_.bodies[body].space();
-  place->second = space != nullptr ? elementsBehind(space->mesh(), label)
-                                   : elementsBehind(model_.bodies[body].mesh(), label);
+  place->second = model_.bodies[body].withMesh(
+      [&](const auto& mesh, const auto&) { return elementsBehind(mesh, label); });
 }
 
 int MeshErrorEstimator::elementBehind(int body, int label, const std::array<int, 2>& edge) const {
@@ -217,7 +216,7 @@ double MeshErrorEstimator::roundingOf(size_t body, double displacement, Threads&
   const std::vector<Point> places = of.axisymmetric() ? of.places() : std::vector<Point>();
   // What the square of a size of an element stands for: 1, the circumference, in space the size itself.
   const auto beyondSquare = [&](int i) {
-    if (of.space() != nullptr) return std::cbrt(of.space()->pointsOfElement() * of.weights()[i]);
+    if (of.space() != nullptr) return std::cbrt(of.pointsOfTriangle() * of.weights()[i]);
     return of.axisymmetric() ? of.depthAt(places[i]) : 1.0;
   };
   std::vector<double> sums(blocksOf(of.points()), 0);

@@ -196,8 +196,7 @@ void OverlapCheck::judge(const Region& region, const std::vector<Between>& conta
     const int dimension = model_.bodies.front().dimension();
     const auto label = [&](int k) {
       const Body& of = body(sample.bodies[k]);
-      return of.space() != nullptr ? labelText(of.space()->mesh(), sample.labels[k])
-                                   : labelText(of.mesh(), sample.labels[k]);
+      return of.withMesh([&](const auto& mesh, const auto&) { return labelText(mesh, sample.labels[k]); });
     };
     worst.words =
         worst.text(dimension) + ": " +

@@ -205,14 +205,14 @@ double largestPressureError(const Quantity& quantity, const Model& model, const 
   const int b = interface.pair().nonmortar.body;
   const Body& body = model.bodies[b];
   const int node = interface.nonmortarNodes()[row];
-  const Point& n = interface.normals()[row];
+  const SpacePoint& n = interface.normals()[row];
   const ElementNodes& nodes = body.elementNodes();
   const size_t triangles = body.mesh().triangles.size();
   const size_t points = body.points() / triangles;
   double sum = 0;
   double area = 0;
   for (size_t t = 0; t < triangles; ++t) {
-    if (std::find(nodes.of(t), nodes.of(t) + nodes.perTriangle(), node) == nodes.of(t) + nodes.perTriangle())
+    if (std::find(nodes.of(t), nodes.of(t) + nodes.perElement(), node) == nodes.of(t) + nodes.perElement())
       continue;
     for (size_t i = t * points; i < (t + 1) * points; ++i) {
       const Eigen::Vector3d s =

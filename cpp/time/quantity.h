@@ -90,7 +90,8 @@ std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Eleme
 std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label,
                                            bool axisymmetric = false);
 /// The same of a body in space.
-std::vector<std::pair<int, double>> meanAt(const SpaceElements& elements, const SpacePoint& point);
-std::vector<std::pair<int, double>> meanOn(const SpaceElements& elements, int label);
+std::vector<std::pair<int, double>> meanAt(const TetrahedronMesh& mesh, const SpaceNodes& nodes,
+                                           const SpacePoint& point);
+std::vector<std::pair<int, double>> meanOn(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label);
 
 }  // namespace mortier

@@ -41,7 +41,7 @@ Vector motionOfRows(const ContactInterface& interface, const Body& body, const V
   std::vector<char> own(static_cast<size_t>(body.nodes()), 0);
   const auto move = [&](int node, int row, double weight) {
     motion.segment(Eigen::Index{dimension} * node, dimension) +=
-        weight * values[row] * normalAt(interface, row).head(dimension);
+        weight * values[row] * interface.normals()[row].head(dimension);
   };
   for (int row = 0; row < interface.rows(); ++row) {
     own[interface.nonmortarNodes()[row]] = 1;

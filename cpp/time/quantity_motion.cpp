@@ -53,12 +53,6 @@ SpacePoint motionAt(const Quantity& quantity, const SpacePoint& x) {
   return isMoment(quantity.component) ? SpacePoint(axis.cross(x - quantity.about)) : axis;
 }
 
-SpacePoint normalAt(const ContactInterface& interface, int row) {
-  if (interface.dimension() == 3) return interface.spaceNormals()[row];
-  const Point& n = interface.normals()[row];
-  return {n.x(), n.y(), 0};
-}
-
 int firstSupport(const Body& body, int label, const std::optional<SpacePoint>& point) {
   const std::vector<Condition>& held = body.conditions().displacements;
   const auto found = std::find_if(held.begin(), held.end(), [&](const Condition& each) {

@@ -20,9 +20,6 @@ Vector motionOf(const Quantity& quantity, const Model& model);
 /// That of a reaction, on any mesh of its body.
 Vector reactionMotion(const Quantity& quantity, const Body& body);
 
-/// The direction of contact at a row; z = 0 in the plane.
-SpacePoint normalAt(const ContactInterface& interface, int row);
-
 /// A largest value, and where it is.
 struct PlaceOfLargest {
   double value = 0;

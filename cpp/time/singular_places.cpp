@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "material/stress.h"
+#include "mesh/simplices.h"
 
 namespace mortier {
 namespace {
@@ -67,21 +69,19 @@ struct BoundaryCorner {
 };
 
 /// The point of a vertex or an edge next to a place.
-template <size_t count>
-SpacePoint nearestOf(const Body& body, const std::array<int, count>& corner, const SpacePoint& place) {
+SpacePoint nearestOf(const Body& body, std::span<const int> corner, const SpacePoint& place) {
   const SpacePoint a = body.placeOfNode(corner.front());
   const SpacePoint e = body.placeOfNode(corner.back()) - a;
-  if (count == 1) return a;
+  if (corner.size() == 1) return a;
   return a + std::clamp(e.dot(place - a) / e.squaredNorm(), 0.0, 1.0) * e;
 }
 
 /// From a vertex or an edge to another vertex, across it.
-template <size_t count>
-SpacePoint awayFrom(const Body& body, const std::array<int, count>& corner, int vertex) {
+SpacePoint awayFrom(const Body& body, std::span<const int> corner, int vertex) {
   const SpacePoint a = body.placeOfNode(corner.front());
   const SpacePoint e = body.placeOfNode(corner.back()) - a;
   const SpacePoint x = body.placeOfNode(vertex) - a;
-  return count == 1 ? x : SpacePoint(x - e.dot(x) / e.squaredNorm() * e);
+  return corner.size() == 1 ? x : SpacePoint(x - e.dot(x) / e.squaredNorm() * e);
 }
 
 /// A simplex without some of its vertices, ascending.
@@ -104,15 +104,8 @@ Sides<2> sidesOf(const TriangleMesh& mesh) {
   return {mesh.boundaryEdges, mesh.boundaryLabels};
 }
 Sides<3> sidesOf(const TetrahedronMesh& mesh) {
-  Sides<3> sides{outerTriangles(mesh), {}};
-  std::map<std::array<int, 3>, int> labels;
-  for (size_t i = 0; i < mesh.boundaryLabels.size(); ++i)
-    labels[without<3>(mesh.boundaryTriangles[i], 3, 3)] = mesh.boundaryLabels[i];
-  for (const auto& facet : sides.facets) {
-    const auto found = labels.find(without<3>(facet, 3, 3));
-    sides.labels.push_back(found == labels.end() ? -1 : found->second);
-  }
-  return sides;
+  const std::vector<std::array<int, 3>> outer = outerTriangles(mesh);
+  return {outer, labelsOf(mesh, outer)};
 }
 
 /// Calls visit(corner, facet, vertex of it that is not on the corner) of all corners of a facet.
@@ -122,8 +115,7 @@ void forEachCorner(const std::array<int, count>& facet, const Visit& visit) {
 }
 
 /// Whether a corner is next to a place, seen from a side of it.
-template <size_t count>
-bool isNextTo(const Body& body, const std::array<int, count>& corner, int vertex, const SpacePoint& place) {
+bool isNextTo(const Body& body, std::span<const int> corner, int vertex, const SpacePoint& place) {
   return (nearestOf(body, corner, place) - place).norm() < nextTo * awayFrom(body, corner, vertex).norm();
 }
 
@@ -179,73 +171,59 @@ bool growsTowards(const Body& body, const Matrix& stress, const BoundaryCorner& 
   return size[0] > 0 && square[0] / size[0] > grows * square[1] / size[1];
 }
 
-/// The border of a label of a body: corners that one of its facets has alone, and how far that reaches.
-template <size_t count>
-struct Border {
-  std::vector<std::pair<std::array<int, count - 1>, int>> corners;  ///< and the vertex opposite
-};
-template <size_t count>
-Border<count> borderOf(const Sides<count>& sides, int label) {
-  std::map<std::array<int, count - 1>, std::vector<int>> facets;
-  for (size_t i = 0; i < sides.facets.size(); ++i)
-    if (sides.labels[i] == label)
-      forEachCorner(sides.facets[i],
-                    [&](const auto& corner, int vertex) { facets[corner].push_back(vertex); });
-  Border<count> border;
-  for (const auto& [corner, vertices] : facets)
-    if (vertices.size() == 1) border.corners.emplace_back(corner, vertices.front());
-  return border;
+/// The border of a label of a body: corners that one of its facets has alone, and the vertices opposite.
+using Border = std::vector<std::pair<std::vector<int>, int>>;
+Border borderOf(const Body& body, int label) {
+  return body.withMesh([&](const auto& mesh, const auto&) {
+    const auto sides = sidesOf(mesh);
+    std::map<std::vector<int>, std::vector<int>> facets;
+    for (size_t i = 0; i < sides.facets.size(); ++i)
+      if (sides.labels[i] == label)
+        forEachCorner(sides.facets[i], [&](const auto& corner, int vertex) {
+          facets[{corner.begin(), corner.end()}].push_back(vertex);
+        });
+    Border border;
+    for (const auto& [corner, vertices] : facets)
+      if (vertices.size() == 1) border.emplace_back(corner, vertices.front());
+    return border;
+  });
 }
 
-/// The mesh of a body, as plane and space have it.
-template <size_t count>
-const auto& meshOf(const Body& body) {
-  if constexpr (count == 3)
-    return body.space()->mesh();
-  else
-    return body.mesh();
-}
-template <size_t count>
 std::vector<BoundaryCorner> cornersNear(const Body& body, const SpacePoint& place) {
-  const auto& mesh = meshOf<count>(body);
-  if constexpr (count == 3)
-    return cornersNear(body, sidesOf(mesh), mesh.tetrahedra, place);
-  else
-    return cornersNear(body, sidesOf(mesh), mesh.triangles, place);
+  return body.withMesh([&](const auto& mesh, const auto&) {
+    return cornersNear(body, sidesOf(mesh), elementsOf(mesh), place);
+  });
 }
 
 /// Whether the stress of a body grows towards a place of its boundary.
-template <size_t count>
 bool growsTowards(const Body& body, const Matrix& stress, const SpacePoint& place) {
   if (body.rigid()) return false;
   BoundaryCorner end;
   end.at = place;
-  for (const BoundaryCorner& near : cornersNear<count>(body, place)) end.edge = std::max(end.edge, near.edge);
+  for (const BoundaryCorner& near : cornersNear(body, place)) end.edge = std::max(end.edge, near.edge);
   return end.edge > 0 && growsTowards(body, stress, end);
 }
 
 /// Whether the border of one of two sides passes next to a place, where that of the other one does not, and
 /// the stress of one of the bodies grows towards it.
-template <size_t count>
 bool endsAt(const ContactPair& pair, const Model& model, const State& state, const SpacePoint& place,
             double reach) {
   const std::array<ContactSide, 2> sides{pair.nonmortar, pair.mortar};
-  std::array<Border<count>, 2> borders;
+  std::array<Border, 2> borders;
+  for (size_t i = 0; i < 2; ++i) borders[i] = borderOf(model.bodies[sides[i].body], sides[i].label);
   for (size_t i = 0; i < 2; ++i)
-    borders[i] = borderOf(sidesOf(meshOf<count>(model.bodies[sides[i].body])), sides[i].label);
-  for (size_t i = 0; i < 2; ++i)
-    for (const auto& [corner, vertex] : borders[i].corners) {
+    for (const auto& [corner, vertex] : borders[i]) {
       const Body& body = model.bodies[sides[i].body];
       const SpacePoint at = nearestOf(body, corner, place);
       if (!isNextTo(body, corner, vertex, place) && !((at - place).norm() < reach)) continue;
       const double edge = awayFrom(body, corner, vertex).norm();
-      const auto& other = borders[1 - i].corners;
+      const Border& other = borders[1 - i];
       if (std::any_of(other.begin(), other.end(), [&](const auto& each) {
             return (nearestOf(model.bodies[sides[1 - i].body], each.first, at) - at).norm() <= edge / 2;
           }))
         continue;
       if (std::any_of(sides.begin(), sides.end(), [&](const ContactSide& side) {
-            return growsTowards<count>(model.bodies[side.body], state.bodies[side.body].stress, at);
+            return growsTowards(model.bodies[side.body], state.bodies[side.body].stress, at);
           }))
         return true;
     }
@@ -266,8 +244,7 @@ bool isSingular(double angle, SideSupport first, SideSupport second, double kapp
 
 bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place) {
   if (body.rigid()) return false;
-  const std::vector<BoundaryCorner> corners =
-      body.dimension() == 3 ? cornersNear<3>(body, place) : cornersNear<2>(body, place);
+  const std::vector<BoundaryCorner> corners = cornersNear(body, place);
   return std::any_of(corners.begin(), corners.end(), [&](const BoundaryCorner& corner) {
     return corner.sides.size() == 2 &&
            isSingular(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body)) &&
@@ -276,10 +253,7 @@ bool cornerAt(const Body& body, const Matrix& stress, const SpacePoint& place) {
 }
 
 bool contactEndsAt(const Model& model, const State& state, const SpacePoint& place, double reach) {
-  const bool space = model.bodies.front().dimension() == 3;
-  const auto ends = [&](const ContactPair& pair) {
-    return space ? endsAt<3>(pair, model, state, place, reach) : endsAt<2>(pair, model, state, place, reach);
-  };
+  const auto ends = [&](const ContactPair& pair) { return endsAt(pair, model, state, place, reach); };
   for (size_t k = 0; k < model.interfaces.size(); ++k)
     if (state.contactForce[k].maxCoeff() > 0 && ends(model.interfaces[k].pair())) return true;
   return std::ranges::any_of(model.ties, [&](const Tie& tie) { return ends(tie.pair()); });

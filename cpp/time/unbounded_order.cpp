@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "mesh/simplices.h"
+
 namespace mortier {
 namespace {
 
@@ -42,17 +44,19 @@ double edgeAt(const std::vector<Place>& vertices, const std::vector<std::array<i
   return std::pow(size / around, 1.0 / (corners - 1));
 }
 
-template <class Place, size_t corners>
-double orderIn(const Body& body, const Matrix& stress, const std::vector<Place>& vertices,
-               const std::vector<std::array<int, corners>>& elements, const Place& place) {
-  const double edge = edgeAt(vertices, elements, place);
+template <class Mesh>
+double orderIn(const Body& body, const Matrix& stress, const Mesh& mesh, const SpacePoint& at) {
+  using Place = typename decltype(mesh.vertices)::value_type;
+  const auto& elements = elementsOf(mesh);
+  const Place place = at.head<Place::RowsAtCompileTime>();
+  const double edge = edgeAt(mesh.vertices, elements, place);
   if (!(edge * (1 << discs) < body.extent() / 2)) return 0;
-  constexpr double dimension = corners - 1;
+  constexpr double dimension = Place::RowsAtCompileTime;
   std::array<double, discs> energy{};
   const size_t points = body.points() / elements.size();
   for (size_t t = 0; t < elements.size(); ++t) {
     Place centre = Place::Zero();
-    for (const int v : elements[t]) centre += vertices[v];
+    for (const int v : elements[t]) centre += mesh.vertices[v];
     const double r = (centre / (dimension + 1) - place).norm();
     for (size_t i = t * points; i < (t + 1) * points; ++i)
       for (int k = 0; k < discs; ++k)
@@ -73,12 +77,9 @@ double unboundedOrder(const Model& model, const State& state, const SpacePoint& 
   double order = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    const Matrix& stress = state.bodies[b].stress;
-    if (const SpaceElements* space = body.space())
-      order = std::max(order, orderIn(body, stress, space->mesh().vertices, space->mesh().tetrahedra, place));
-    else
-      order = std::max(
-          order, orderIn(body, stress, body.mesh().vertices, body.mesh().triangles, Point(place.head<2>())));
+    order = std::max(order, body.withMesh([&](const auto& mesh, const auto&) {
+      return orderIn(body, state.bodies[b].stress, mesh, place);
+    }));
   }
   return order;
 }

@@ -24,6 +24,51 @@ steps = 1
 PLATE = 'mesh = { shape = "cuboid", lower = [-2, -2, 0], upper = [2, 2, 1], cells = [3, 4, 1] }\n'
 BALL = 'mesh = { shape = "ball", centre = [0.1, -0.05, 1.5], radius = 1.5, cells = 8, keep = ["-z"] }\n'
 ALL_HELD = "ux = 0, uy = 0, uz = 0"
+# A quarter of a half space: on its outer sides it moves as under a point force (Boussinesq).
+QUARTER = """\
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, -10, 10, 10, 10};
+Physical Volume(1) = {1};
+Physical Surface("x") = {1}; Physical Surface("y") = {3};
+Physical Surface("outer") = {2, 4, 5}; Physical Surface("top") = {6};
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Field[1] = MathEval; Background Field = 1;
+Field[1].F = "0.15 + 0.35*Max(0, Sqrt(x*x + y*y + z*z) - 1.2)";
+"""
+CONE = """\
+SetFactory("OpenCASCADE");
+Cone(1) = {0, 0, 0, 0, 0, HEIGHT, 0, 3}; Box(2) = {0, 0, -1, 9, 9, 9};
+BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Physical Volume(1) = {3}; Physical Surface("round") = {1};
+rest() = Surface{:}; rest() -= {1}; Physical Surface("rest") = rest();
+Mesh.MeshSizeMax = 0.25;
+"""
+HALF_SPACE = """\
+dimension = 3
+degree = 2
+[[body]]
+name = "block"
+mesh = "block.geo"
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = "x", ux = 0 }, { label = "y", uy = 0 },
+             { label = "outer", ux = "x*(ACROSS)", uy = "y*(ACROSS)", uz = "DOWN" } ]
+[[contact]]
+sides = [ { body = "block", label = "top" }, { body = "tool", label = "LABEL" } ]
+[[tool]]
+name = "tool"
+mesh = MESH
+fz = FORCE
+[[quantity]]
+name = "depth"
+displacement = { body = "tool" }
+component = "z"
+[[quantity]]
+name = "peak"
+largest_pressure = { body = "block", label = "top" }
+[time]
+end = 1
+steps = 1
+"""
 
 
 def quantities(kind, *components, about=""):
@@ -74,6 +119,28 @@ class SpaceTools(InFolder):
         self.assertAlmostEqual(again["reaction-z"], -400, delta=1e-7)
         for name in ("moment_x", "moment_y"):
             self.assertAlmostEqual(again["reaction-" + name], 0, delta=1e-7)
+
+    def test_ball_punch_and_cone_on_a_half_space(self):
+        """Hertz, Boussinesq, Sneddon; contact radius 1."""
+        modulus, shear, slope = 1000 / (1 - 0.3**2), 1000 / 2.6, math.tan(math.radians(80))
+        ball, punch = 4 * modulus / 30, 0.02 * modulus
+        depth = math.pi / (2 * slope)
+        self.write(QUARTER, "block.geo")
+        self.write(CONE.replace("HEIGHT", repr(3 / slope)), "cone.geo")
+        for mesh, label, force, known in (
+                ('{ shape = "ball", centre = [0, 0, 10], radius = 10, cells = 30, keep = ["x", "y", "-z"] }',
+                 "round", ball, {"depth": (0.1, 2e-3), "peak": (1.5 * ball / math.pi, 2e-2)}),
+                ('{ shape = "cylinder", cells = [16, 1], keep = ["x", "y"] }', "bottom", punch,
+                 {"depth": (0.01, 2e-3)}),
+                ('"cone.geo"', "round", 2 * modulus * slope * depth**2 / math.pi, {"depth": (depth, 2e-3)})):
+            with self.subTest(mesh):
+                c, r = force / (4 * math.pi * shear), "sqrt(x^2 + y^2 + z^2)"
+                text = HALF_SPACE.replace("ACROSS", f"{c!r}*(-z/{r}^3 - 0.4/({r}*({r} - z)))").replace(
+                    "DOWN", f"-{c!r}*(1.4/{r} + z^2/{r}^3)").replace("LABEL", label).replace(
+                    "MESH", mesh).replace("FORCE", repr(-force / 4))
+                values = self.values(text)
+                for name, (exact, within) in known.items():
+                    self.assertAlmostEqual(abs(values[name]) / exact, 1, delta=within, msg=name)
 
     def test_it_is_what_a_body_becomes_that_stiffens(self):
         approach = self.values(scene(BALL + "uz = -0.03", label='"round"')

@@ -135,7 +135,7 @@ TEST(EnergyBalance, nothingIsDoneWhileAGapCloses) {
   const auto elastic = elasticMaterial({100, 0.3});
   const Function way = [](double, double, double t) { return -0.03 * std::min(t, 2 - t); };
   InterfaceOptions options;
-  options.gap = [](const Point&) { return 0.01; };
+  options.gap = still([](const Point&) { return 0.01; });
   for (const int nonmortar : {upperBody, lowerBody}) {
     Body upper("upper", square(0, 3), elastic, {{{left, 0, constant(0)}, {top, 1, way}}, {}, {}});
     Body lower("lower", square(-1, 4), elastic, {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});

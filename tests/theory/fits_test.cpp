@@ -44,14 +44,14 @@ Vector pinInHole(int pinEdges, int holeEdges, bool pinNonmortar, bool given) {
   const ContactSide hole{1, innerCircle};
   InterfaceOptions options;
   if (given)  // from a node along the radius of its circle to the other one
-    options.gap = [=](const Point& x) {
+    options.gap = still([=](const Point& x) {
       const Point from = pinNonmortar ? Point::Zero() : centre;  // of the other circle
       const double other = pinNonmortar ? R : r;
       const Point n = pinNonmortar ? Point((x - centre).normalized()) : Point(-x.normalized());
       const double along = (x - from).dot(n);
       const double root = std::sqrt(along * along - (x - from).squaredNorm() + other * other);
       return pinNonmortar ? root - along : -along - root;
-    };
+    });
   addInterface(model, {pinNonmortar ? pin : hole, pinNonmortar ? hole : pin, CouplingKind::mortar}, options);
   const auto [state, report] = run(model, 1, 1);
   EXPECT_EQ(report.status, Status::converged) << report.reason;

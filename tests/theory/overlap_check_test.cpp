@@ -95,9 +95,8 @@ TEST(OverlapCheck, isExplainedByRowsThatPressNearbyOnly) {
 // A distance that is given is one that bodies overlap by.
 TEST(OverlapCheck, acceptsADistanceThatIsGiven) {
   InterfaceOptions options;
-  options.gap = [](const Point&) { return 0.01; };
+  options.gap = still([](const Point&) { return 0.01; });
   Model model = pressed(0.02, CouplingKind::mortar, options);
-  model.interfaces[0].setGiven(Datum(constant(0.01)));
   const OverlapCheck check(model);
   EXPECT_TRUE(check.find(movedBy(model, {0, -0.0099}), forces(model, 0), 1, residual).explained);
   EXPECT_FALSE(check.find(movedBy(model, {0, -0.0102}), forces(model, 0), 1, residual).explained);

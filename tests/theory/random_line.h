@@ -103,9 +103,9 @@ inline RandomLine randomLine(unsigned seed, int most, const RandomUnits& units =
       const double depth = 0.01 * uniform() * units.length;
       const double count = random.below(6);
       const double phase = 6 * uniform();
-      options.gap = [=](const Point& x) {
+      options.gap = still([=](const Point& x) {
         return depth * (1 + std::cos(2 * std::numbers::pi * count * x.x() / length + phase));
-      };
+      });
     } else if (bend != 0) {
       options.initial = InitialGap::close;
     }

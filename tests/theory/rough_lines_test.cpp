@@ -168,7 +168,7 @@ Model pin(int cells, bool pinNonmortar, double interference) {
   model.bodies.emplace_back("ring", ring(1, 2, cells * 5 / 4), elasticMaterial({100, 0.3}),
                             std::move(outside));
   InterfaceOptions options = rough();
-  options.gap = [=](const Point&) { return -interference; };
+  options.gap = still([=](const Point&) { return -interference; });
   const ContactSide ofPin{0, 2};
   const ContactSide ofRing{1, 1};
   addInterface(model, {pinNonmortar ? ofPin : ofRing, pinNonmortar ? ofRing : ofPin, CouplingKind::mortar},

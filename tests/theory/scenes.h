@@ -59,6 +59,13 @@ inline Function constant(double value) {
   return [value](double, double, double) { return value; };
 }
 
+/// A distance that is given and does not change.
+inline Datum still(const std::function<double(const Point&)>& gap) {
+  Datum datum = [gap](const SpacePoint& x, double) { return gap(x.head<2>()); };
+  datum.inTime = false;
+  return datum;
+}
+
 inline TriangleMesh square(double lowerY, int cells) {
   return crissCrossMesh({.lower = {0, lowerY}, .upper = {1, lowerY + 1}, .cellsX = cells, .cellsY = cells});
 }

@@ -14,7 +14,7 @@ using namespace scenes;
 constexpr double mu = 0.3;
 
 Model roughModel(Body upper, Body lower, const Rows& coupling, int nonmortarBody, const Friction& friction,
-                 const std::function<double(const Point&)>& gap = {}) {
+                 const Datum& gap = {}) {
   InterfaceOptions options;
   options.friction = friction;
   options.gap = gap;
@@ -202,7 +202,7 @@ TEST(Sliding, stickZoneIsThatOfCattaneoAndMindlin) {
     Body lower("lower", mesh(false), elasticMaterial({100, 0.3}),
                {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
     const Model model = roughModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody,
-                                   {mu, 0}, [](const Point& x) { return x.x() * x.x() / 60; });
+                                   {mu, 0}, still([](const Point& x) { return x.x() * x.x() / 60; }));
     const Result result = run(model, 2, 2);
     ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
     const Vector& p = result.state.contactForce[0];

@@ -30,7 +30,7 @@ Model roughPunch(double motion) {
              elasticMaterial({100, 0.2}), {{{bottom, 0, constant(0)}, {bottom, 1, down}}, {}, {}});
   InterfaceOptions options;
   options.friction = {mu, 0};
-  options.gap = [](const Point& x) { return x.x() * x.x() / 2; };
+  options.gap = still([](const Point& x) { return x.x() * x.x() / 2; });
   return contactModel(std::move(punch), std::move(block), CouplingKind::mortar, lowerBody, options);
 }
 

@@ -162,7 +162,7 @@ Errors errorsOn(int cells, bool averaged, double poisson) {
   for (int e = 0; e < body.points(); ++e) {
     const auto& tetrahedron = body.space()->mesh().tetrahedra[e];
     const Eigen::Vector<double, 6> own = stress.col(e);
-    const double atCentre = componentsOf(exact.stress(body.space()->placeOf(e)))[5];
+    const double atCentre = componentsOf(exact.stress(body.placeOfPoint(e)))[5];
     result.largest = std::max(result.largest, std::abs(own[5] - atCentre));
     most = std::max(most, std::abs(atCentre));
     for (const auto& [at, weight] : tetrahedronRule()) {

@@ -233,10 +233,7 @@ inline Case randomCase(unsigned seed, bool recloses = false, double part = 1) {
     upper.tractions.push_back({top, 1, datum});
   else
     upper.displacements.push_back({top, 1, of.drive == Drive::support ? Function(datum) : constant(0)});
-  if (of.drive == Drive::distance) {
-    options.gapInTime = [=](const Point& x, double t) { return datum(x.x(), x.y(), t); };
-    options.gap = [=](const Point& x) { return datum(x.x(), x.y(), 0); };
-  }
+  if (of.drive == Drive::distance) options.gap = datum;
   if (of.drive == Drive::temperature)
     upper.temperature = [=](double x, double y, double t) { return -datum(x, y, t); };
   const TriangleMesh above = square(0, of.coupling == CouplingKind::mortar ? 1 : 2);

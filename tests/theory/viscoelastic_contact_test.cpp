@@ -80,7 +80,7 @@ Model pressedHalf() {
                             viscoelasticMaterial(elasticity, {tau, g}, Plane::strain),
                             Conditions{{{left, alongX, constant(0)}, {bottom, alongY, constant(0)}}, {}, {}});
   InterfaceOptions options;
-  options.gap = [](const Point& x) { return x.x() * x.x() / (2 * radius); };
+  options.gap = still([](const Point& x) { return x.x() * x.x() / (2 * radius); });
   addInterface(model, {{1, top}, {0, bottom}, CouplingKind::mortar}, options);
   return model;
 }

@@ -19,8 +19,8 @@ TEST(Curves, circlesOfARingAreKnown) {
     const KnownCurves curves = curvesBehind(mesh);
     EXPECT_TRUE(curves.polygons.empty());
     EXPECT_EQ(curves.edges.size(), 12U * quarters);
-    for (const auto& edge : edgesOn(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
-    for (const auto& edge : edgesOn(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1 / 2.5, 1e-12);
+    for (const auto& edge : sidesWith(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
+    for (const auto& edge : sidesWith(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1 / 2.5, 1e-12);
   }
 }
 
@@ -60,11 +60,11 @@ TEST(Curves, shapesTellTheirCirclesOnAnyMesh) {
   const TriangleMesh mesh = shapeMesh({Annulus{{1, 1}, 1, 3, 4, 3, 1}});
   const KnownCurves curves = curvesBehind(mesh);
   EXPECT_TRUE(curves.polygons.empty());
-  for (const auto& edge : edgesOn(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
-  for (const auto& edge : edgesOn(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1.0 / 3, 1e-12);
+  for (const auto& edge : sidesWith(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
+  for (const auto& edge : sidesWith(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1.0 / 3, 1e-12);
   const TriangleMesh disc = shapeMesh({HalfDisc{{0, 0}, 2, 0.5, 1}, Cut::both});
   const KnownCurves arcs = curvesBehind(disc);
-  EXPECT_EQ(arcs.edges.size(), edgesOn(disc, 1).size() + edgesOn(disc, 3).size());
+  EXPECT_EQ(arcs.edges.size(), sidesWith(disc, 1).size() + sidesWith(disc, 3).size());
   for (const auto& [edge, curvature] : arcs.edges) EXPECT_NEAR(curvature, 0.5, 1e-12);
 }
 
@@ -246,7 +246,7 @@ TEST(FacingCorners, linesGetVerticesWhereCornersFaceTheInsideOfAnEdge) {
   const size_t now = wide.vertices.size();
   cutFacing(wide, {}, 3, {{-0.5, 3}});
   CurvedEdges curves;
-  for (const auto& edge : edgesOn(wide, 3)) curves[edge] = 0.1;
+  for (const auto& edge : sidesWith(wide, 3)) curves[edge] = 0.1;
   cutFacing(wide, curves, 3, {{-0.5, 0}});
   EXPECT_EQ(wide.vertices.size(), now);
 }
@@ -256,7 +256,7 @@ TEST(FacingCorners, edgesAreCutUntilTheyAreNoLongerThanTwiceThoseThatTheyFace) {
                         rectangleMesh({.lower = {-2, -1}, .upper = {2, 0}, .cellsX = 32, .cellsY = 8})},
                        1);
   meshes.faceSizes(0, 1, 1, 3);
-  for (const auto& [a, b] : edgesOn(meshes.mesh(0), 1))
+  for (const auto& [a, b] : sidesWith(meshes.mesh(0), 1))
     EXPECT_EQ((meshes.mesh(0).vertices[b] - meshes.mesh(0).vertices[a]).norm(), 0.25);
   TriangleMesh cut = meshes.mesh(0);
   EXPECT_NO_THROW(validate(cut));

@@ -13,6 +13,7 @@
 
 #include "material/elasticity.h"
 #include "mesh/shape.h"
+#include "mesh/simplices.h"
 
 namespace mortier::curve_error_test {
 
@@ -56,7 +57,7 @@ TEST(CurveError, areasAreThoseOfRings) {
 
 double areaOf(const TetrahedronMesh& mesh, int label) {
   double area = 0;
-  for (const auto& [a, b, c] : trianglesOn(mesh, label))
+  for (const auto& [a, b, c] : sidesWith(mesh, label))
     area += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
   return area;
 }

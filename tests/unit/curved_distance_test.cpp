@@ -42,7 +42,7 @@ TEST(CurvedDistance, distanceOfTwoCircles) {
     const TriangleMesh& mesh = upperNonmortar ? pair.upper : pair.lower;
     for (int i = 0; i < interface.rows(); ++i) {
       const Point& x = mesh.vertices[interface.nonmortarNodes()[i]];
-      const Point seen = x + interface.initialDistance()[i] * interface.normals()[i];
+      const Point seen = x + interface.initialDistance()[i] * interface.normals()[i].head<2>();
       EXPECT_NEAR((seen - Point(0, upperNonmortar ? -moved : 0)).norm(), 1, circleRounding);
     }
     const ContactInterface mortar = pair.meet(CouplingKind::mortar, upperNonmortar);
@@ -116,8 +116,8 @@ TEST(CurvedDistance, initialGap) {
             0);
   EXPECT_NE(message({.initial = InitialGap::reject}).find("penetrate each other by 0.00"), std::string::npos)
       << message({.initial = InitialGap::reject});
-  const ContactInterface given =
-      pair.meet(CouplingKind::mortar, true, {.gap = [](const Point& x) { return 0.5 * x.x() * x.x(); }});
+  const ContactInterface given = pair.meet(
+      CouplingKind::mortar, true, {.gap = [](const SpacePoint& x, double) { return 0.5 * x.x() * x.x(); }});
   for (int i = 0; i < given.rows(); ++i) {
     const double x = pair.upper.vertices[given.nonmortarNodes()[i]].x();
     EXPECT_EQ(given.initialDistance()[i], 0.5 * x * x);

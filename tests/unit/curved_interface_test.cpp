@@ -178,10 +178,10 @@ TEST(CurvedInterface, heldEndsAreMerged) {
   std::mt19937 random(7);
   const LinePair pair = pairOf(random, 6, 9, [](const Point& x) { return x; });
   const auto onLeft = [](const TriangleMesh& mesh) {
-    return [&mesh](int v, const Point&) { return mesh.vertices[v].x() == 0; };
+    return [&mesh](int v, const SpacePoint&) { return mesh.vertices[v].x() == 0; };
   };
   const InterfaceOptions held{.nonmortarHeld = onLeft(pair.upper), .mortarHeld = onLeft(pair.lower)};
-  const InterfaceOptions rigid{.nonmortarHeld = [](int, const Point&) { return true; }};
+  const InterfaceOptions rigid{.nonmortarHeld = [](int, const SpacePoint&) { return true; }};
   for (const CouplingKind kind : kinds) {
     const ContactInterface interface = pair.meet(kind, true, held);
     EXPECT_EQ(interface.rows(), 6);

@@ -94,10 +94,10 @@ TEST(Follow, motionOfAllChangesNoGap) {
         ASSERT_EQ(moved.faces(row), before.faces(row));
         EXPECT_NEAR(moved.distanceHere()[row], before.distanceHere()[row], 20 * rounding);
         if (!moved.faces(row)) continue;
-        const Point& n = before.normals()[row];
+        const Point n = before.normals()[row].head<2>();
         const Point turned(std::cos(angle) * n.x() - std::sin(angle) * n.y(),
                            std::sin(angle) * n.x() + std::cos(angle) * n.y());
-        EXPECT_LE((moved.normals()[row] - turned).norm(), rounding);
+        EXPECT_LE((moved.normals()[row].head<2>() - turned).norm(), rounding);
       }
     }
 }

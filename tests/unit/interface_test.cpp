@@ -59,7 +59,8 @@ TEST(Interface, gapIsPositiveWhereBodiesOverlap) {
   for (const bool upperNonmortar : {true, false}) {
     const Blocks blocks(4, 6, 0.125);
     const ContactInterface interface = blocks.meet(CouplingKind::mortar, upperNonmortar);
-    for (const Point& n : interface.normals()) EXPECT_EQ(n, upperNonmortar ? Point(0, -1) : Point(0, 1));
+    for (const SpacePoint& n : interface.normals())
+      EXPECT_EQ(n, upperNonmortar ? SpacePoint(0, -1, 0) : SpacePoint(0, 1, 0));
     EXPECT_EQ(interface.overlap(), 1);
     EXPECT_LE((interface.initialDistance().array() - 0.125).abs().maxCoeff(), rounding);
     const Vector lifted = field(blocks.lower, [](const Point&) { return Point(7, 0.25); });
@@ -81,7 +82,7 @@ TEST(Interface, slopedLinesHaveTheirNormal) {
     const ContactInterface interface = blocks.meet();
     const Point normal(std::sin(angle), -std::cos(angle));
     const Point tangent(normal.y(), -normal.x());
-    for (const Point& n : interface.normals()) EXPECT_LE((n - normal).norm(), rounding);
+    for (const SpacePoint& n : interface.normals()) EXPECT_LE((n.head<2>() - normal).norm(), rounding);
     EXPECT_EQ(interface.rows(), 6);
     EXPECT_EQ(interface.initialDistance().cwiseAbs().maxCoeff(), 0);
     const Vector moved = field(blocks.upper, [&](const Point&) { return Point(0.5 * normal + 3 * tangent); });

@@ -51,8 +51,8 @@ TEST(BoundaryLine, runsWithTheBodyToItsLeft) {
   EXPECT_FALSE(top.closed);
   EXPECT_EQ(boundaryLabels(mesh), (std::vector<int>{1, 2, 3, 4}));
   EXPECT_EQ(verticesOn(mesh, 3), (std::vector<int>{4, 5, 6, 7}));
-  EXPECT_EQ(edgesOn(mesh, 2), (std::vector{std::array{3, 7}}));
-  EXPECT_TRUE(edgesOn(mesh, 5).empty());
+  EXPECT_EQ(sidesWith(mesh, 2), (std::vector{std::array{3, 7}}));
+  EXPECT_TRUE(sidesWith(mesh, 5).empty());
 }
 
 TEST(BoundaryLine, closesAroundTheBody) {

@@ -8,6 +8,7 @@
 
 #include "adapt/adapted_meshes.h"
 #include "mesh/read.h"
+#include "mesh/simplices.h"
 #include "unit/space_meshes.h"
 
 namespace mortier::refine_space_test {
@@ -23,7 +24,7 @@ void expectSound(TetrahedronMesh mesh) {
 
 double areaOn(const TetrahedronMesh& mesh, int label) {
   double sum = 0;
-  for (const auto& [a, b, c] : trianglesOn(mesh, label)) {
+  for (const auto& [a, b, c] : sidesWith(mesh, label)) {
     const SpacePoint& x = mesh.vertices[a];
     sum += (mesh.vertices[b] - x).cross(mesh.vertices[c] - x).norm() / 2;
   }
@@ -219,7 +220,7 @@ TEST(RefineSpace, sidesWithoutLabelsAreCurvedToo) {
   for (size_t v = 0; v < one.mesh.vertices.size(); ++v)
     EXPECT_LE((one.mesh.vertices[v] - other.mesh.vertices[v]).norm(), 1e-14);
   EXPECT_EQ(one.mesh.boundaryTriangles.size() - other.mesh.boundaryTriangles.size(),
-            trianglesOn(one.mesh, 3).size());
+            sidesWith(one.mesh, 3).size());
 }
 
 // A thin shell whose inner vertices would leave it where the inner side alone is cut.

@@ -60,7 +60,7 @@ TEST(Refine, basesDependNeitherOnUnitsNorOnRotations) {
 
 double lengthOn(const TriangleMesh& mesh, int label) {
   double length = 0;
-  for (const auto& [a, b] : edgesOn(mesh, label)) length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+  for (const auto& [a, b] : sidesWith(mesh, label)) length += (mesh.vertices[b] - mesh.vertices[a]).norm();
   return length;
 }
 
@@ -174,8 +174,8 @@ TEST(Refine, everyMarkedTriangleIsCut) {
 /// Of an annulus: positive where the body is convex.
 CurvedEdges circlesOf(const TriangleMesh& mesh, double inner, double outer) {
   CurvedEdges curves;
-  for (const auto& edge : edgesOn(mesh, 1)) curves[edge] = -1 / inner;
-  for (const auto& edge : edgesOn(mesh, 2)) curves[edge] = 1 / outer;
+  for (const auto& edge : sidesWith(mesh, 1)) curves[edge] = -1 / inner;
+  for (const auto& edge : sidesWith(mesh, 2)) curves[edge] = 1 / outer;
   return curves;
 }
 
@@ -196,7 +196,7 @@ TEST(Refine, verticesOfArcsLieOnTheirCircles) {
     }
     EXPECT_GT(mesh.triangles.size(), 100U);
     for (const auto& [label, radius] : {std::pair(1, inner), std::pair(2, outer)}) {
-      EXPECT_GT(edgesOn(mesh, label).size(), static_cast<size_t>(2 * quarters));
+      EXPECT_GT(sidesWith(mesh, label).size(), static_cast<size_t>(2 * quarters));
       for (const int v : verticesOn(mesh, label))
         EXPECT_NEAR((mesh.vertices[v] - centre).norm(), radius, 1e-14 * outer + 1e-14 * centre.norm());
     }

@@ -135,7 +135,7 @@ TEST(EdgeCurve, refinedVerticesAndMiddlesAreOnIt) {
     EXPECT_NEAR((mesh.edgeMiddles[e] - mesh.vertices[a]).norm(),
                 (mesh.edgeMiddles[e] - mesh.vertices[b]).norm(), 1e-12);
   }
-  EXPECT_GT(edgesOn(mesh, 1).size(), 20U);
+  EXPECT_GT(sidesWith(mesh, 1).size(), 20U);
 }
 
 // A flat layer whose inner edge bulges beyond it: what goes back to its chord has no curve any more.
@@ -176,7 +176,7 @@ TEST(EdgeCurve, partsOfAMeshKeepTheirs) {
       const Point& first = mesh.vertices[mesh.boundaryEdges[e][0]];
       EXPECT_LE((mesh.edgeCurves[e].at(mesh.edgeCurves[e].from) - first).norm(), 1e-14);
     }
-  EXPECT_FALSE(edgesOn(mesh, 1).empty());
+  EXPECT_FALSE(sidesWith(mesh, 1).empty());
 }
 
 }  // namespace mortier::sampled_curve_test

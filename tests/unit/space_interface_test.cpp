@@ -22,8 +22,9 @@ double timeOf(int layers) {
   double least = 1e9;
   for (int i = 0; i < 2; ++i) {
     const std::clock_t start = std::clock();
-    const ContactInterface interface = ContactInterface::inSpace(
-        {{0, 1}, {1, 3}, CouplingKind::weighted}, {upper, upperNodes}, {lower, lowerNodes}, {});
+    const ContactInterface interface({{0, 1}, {1, 3}, CouplingKind::weighted},
+                                     SpaceContactMesh{upper, upperNodes},
+                                     SpaceContactMesh{lower, lowerNodes});
     EXPECT_EQ((cells + 1) * (cells + 1), interface.rows());
     least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
@@ -41,7 +42,8 @@ std::string fault(const Cuboid& lower) {
   const SpaceNodes aNodes = spaceNodes(a, 1);
   const SpaceNodes bNodes = spaceNodes(b, 1);
   try {
-    ContactInterface::inSpace({{0, 1}, {1, 3}, CouplingKind::weighted}, {a, aNodes}, {b, bNodes}, {});
+    const ContactInterface met({{0, 1}, {1, 3}, CouplingKind::weighted}, SpaceContactMesh{a, aNodes},
+                               SpaceContactMesh{b, bNodes});
   } catch (const InputError& error) {
     return error.what();
   }

@@ -11,6 +11,7 @@
 #include "fem/body.h"
 #include "material/deviatoric.h"
 #include "material/stress.h"
+#include "mesh/element_sides.h"
 #include "mesh/read.h"
 #include "mesh/regions.h"
 #include "unit/space_meshes.h"
@@ -68,7 +69,7 @@ TEST_F(SpaceMesh, keepsRegions) {
   EXPECT_EQ(mesh.vertices.size(), 8U);
   EXPECT_NEAR(volumeOf(mesh), 1, 1e-15);
   EXPECT_EQ(boundaryLabels(mesh), (std::vector<int>{1, 2, 3, 5, 6}));  // what was inside has no label
-  EXPECT_EQ(trianglesOn(mesh, 3).size(), 2U);
+  EXPECT_EQ(sidesWith(mesh, 3).size(), 2U);
   EXPECT_NO_THROW(validate(mesh));
   EXPECT_THROW(keepRegions(mesh, {"third"}), InputError);
 }
@@ -79,11 +80,11 @@ TEST_F(SpaceMesh, labelsInsideAreDropped) {
   std::vector<int> middle;
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     if (mesh.vertices[v].x() == 1) middle.push_back(static_cast<int>(v));
-  const TriangleCount count(mesh);
+  const auto sides = sortedSides(mesh);
   for (size_t i = 0; i < middle.size(); ++i)
     for (size_t j = i + 1; j < middle.size(); ++j)
       for (size_t k = j + 1; k < middle.size(); ++k)
-        if (count({middle[i], middle[j], middle[k]}) == 2) {
+        if (sidesOn(sides, {middle[i], middle[j], middle[k]}).size() == 2) {
           mesh.boundaryTriangles.push_back({middle[i], middle[j], middle[k]});
           mesh.boundaryLabels.push_back(7);
         }
@@ -200,7 +201,7 @@ TEST_F(SpaceMesh, spheresFaceEachOtherAlongTheLineOfTheirCentres) {
 
 double areaOf(const TetrahedronMesh& mesh, int label) {
   double sum = 0;
-  for (const auto& [a, b, c] : trianglesOn(mesh, label))
+  for (const auto& [a, b, c] : sidesWith(mesh, label))
     sum += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
   return sum;
 }

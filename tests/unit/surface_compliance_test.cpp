@@ -22,13 +22,15 @@ struct Plates {
         lowerNodes(spaceNodes(lower, degree)) {}
 
   [[nodiscard]] ContactInterface interface(CouplingKind kind = CouplingKind::weighted,
-                                           const SpaceInterfaceOptions::Held& held = {}) const {
-    SpaceInterfaceOptions options;
+                                           const InterfaceOptions::Held& held = {}) const {
+    InterfaceOptions options;
     options.mortarHeld = held;
     options.mortarCompliance = compliance;
     options.stabilised = true;
-    return ContactInterface::inSpace({{0, bottom}, {1, top}, kind}, {upper, upperNodes}, {lower, lowerNodes},
-                                     options);
+    return {{{0, bottom}, {1, top}, kind},
+            SpaceContactMesh{upper, upperNodes},
+            SpaceContactMesh{lower, lowerNodes},
+            options};
   }
 
   TetrahedronMesh upper, lower;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mesh/shape.h"
+#include "mesh/simplices.h"
 #include "unit/space_meshes.h"
 
 namespace mortier::swept_mesh_test {
@@ -17,7 +18,7 @@ constexpr double right = std::numbers::pi / 2;
 
 double areaOf(const TetrahedronMesh& mesh, int label) {
   double sum = 0;
-  for (const auto& [a, b, c] : trianglesOn(mesh, label))
+  for (const auto& [a, b, c] : sidesWith(mesh, label))
     sum += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
   return sum;
 }
@@ -77,7 +78,7 @@ TEST(SweptMesh, turnedShapesHaveTheVolumeOfTheirPolygons) {
     const TetrahedronMesh disc = sweptMesh(full, {0, angle, layers});
     EXPECT_NEAR(volumeOf(disc), 2 * sector * 9, closed ? 1e-8 : 1e-12);
     // The axis is a line inside, or an edge between the ends.
-    EXPECT_EQ(trianglesOn(disc, 4).size(), 0U);
+    EXPECT_EQ(sidesWith(disc, 4).size(), 0U);
     EXPECT_NEAR(areaOf(disc, 3), sector * 9, closed ? 1e-8 : 1e-12);
     EXPECT_NEAR(areaOf(disc, 2), layers * 2 * 2 * 3 * std::sin(angle / layers / 2), closed ? 1e-8 : 1e-12);
     EXPECT_EQ(outerTriangles(disc).size(), disc.boundaryTriangles.size());
