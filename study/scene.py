@@ -70,7 +70,7 @@ def materials(run, document):
 
 
 class Mesh:
-    """A Medit mesh: points n x 2, triangles m x 3 from 0."""
+    """A Medit mesh: points n x 2, triangles m x 3 from 0, edges k x 2 from 0 with their labels."""
 
     def __init__(self, path):
         try:
@@ -80,7 +80,7 @@ class Mesh:
         blocks = {}
         i = 0
         while i < len(words):
-            width = {"Vertices": 3, "Triangles": 4}.get(words[i])
+            width = {"Vertices": 3, "Triangles": 4, "Edges": 3}.get(words[i])
             if width is None:
                 i += 1
                 continue
@@ -90,6 +90,8 @@ class Mesh:
             blocks[words[begin - 2]] = np.array(words[begin:i], float).reshape(count, width)
         self.points = blocks["Vertices"][:, :2]
         self.triangles = blocks["Triangles"][:, :3].astype(int) - 1
+        self.edges = blocks["Edges"][:, :2].astype(int) - 1
+        self.labels = blocks["Edges"][:, 2].astype(int)
 
     def with_middles(self):
         """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles

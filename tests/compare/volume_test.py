@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from support import InFolder, warned
+from support import InFolder, script, warned
 
 SCENE = """\
 plane = "strain"
