@@ -29,7 +29,7 @@ bool Controller::repeatInHalves(StepTaker& taker, StepTaker::Kept start, const S
     taker.goBack(std::move(start));
     own.pairEnd = 0;
     own.missed = {};
-    factor = factorFor(off / own.local, 1, safety);
+    factor = std::clamp(safety * own.local / off, leastFactor, safety);
     return false;
   }
   own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});

@@ -166,12 +166,6 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   own.worst = larger(own.worst, own.error);
 }
 
-double Controller::factorFor(double error, double order, double largest) {
-  constexpr double lengths = 32;  // in an octave: the rounding of an error does not move the steps after it
-  const double fits = std::clamp(safety * std::pow(error, -1 / order), leastFactor, largest);
-  return std::exp2(std::round(lengths * std::log2(fits)) / lengths);
-}
-
 Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
   Judgement result{taker.localError()};
   ErrorNorms norms = measure_.sizeOf(result.local.response);
@@ -187,7 +181,7 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   result.size = relative(norms, own.scale);
   result.change = relative({change, 0, 0}, own.scale);
   const double error = result.size / own.local;
-  result.factor = factorFor(error, taker.errorOrder(), largestFactor);
+  result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
   result.good = error <= 1 || isShortest(t0, t1 - t0);
   return result;
 }

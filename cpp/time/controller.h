@@ -4,7 +4,7 @@
 // that meets the tolerance; with N steps of a scheme of order p both errors are linked by
 //   global ~ local^(p/(p+1)).
 // Within a run
-//   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5, rounded to a power of 2^(1/32),
+//   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5,
 // and a step with a larger error is rejected. Where steps may end: step_ends.h.
 //
 // Where there is friction only the slip of a whole step counts, and what a step misses of it no stage of the
@@ -70,9 +70,6 @@ class Controller {
     bool beginsPair = false;
     bool contactChanges = false;
   };
-  /// By which the next step may be longer, or must be shorter.
-  /// \param error  of this one over that which a step may have; of a step k times as long it is k^order times
-  [[nodiscard]] static double factorFor(double error, double order, double largest);
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow
   StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,

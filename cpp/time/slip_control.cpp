@@ -73,8 +73,8 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
     // Stages show the flow unless contact changes between them.
     if (!first.contactChanges && !taker.contactChanges()) missed.strain.clear();
     const double size = sizeOf(taker, missed);
-    constexpr double order = 2;  // of what a pair misses
-    factor = std::min({factor, second.judgement.factor, factorFor(size / own.local, order, largest)});
+    const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
+    factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});
     good = size <= own.local || isShortest(first.t1, end - first.t1);
     if (good && size > plan_.tolerance) own.shortestInaccurate = true;
     own.missed = std::move(missed);
