@@ -134,8 +134,33 @@ rate33 = "a*(s33 - s11)"
 rate13 = "a*s13"
 rate23 = "2*a*s23"
 parameters = { a = 0.1 }
-[contact]
+[[body]]
+name = "anvil"
+mesh = { shape = "cuboid", lower = [9, 0, 0], upper = [10, 1, 1], cells = 2 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
+[[tool]]
+name = "plate"
+mesh = { shape = "cuboid", lower = [8, -1, 1], upper = [11, 2, 2], cells = 1 }
+at = [9.5, 0.5, 1]
+fz = -1
+moment_x = "0.01*t"
+moment_y = 0
+moment_z = "0.01*t"
+[[tool]]
+name = "wall"
+mesh = { shape = "cuboid", lower = [4, -1, -1], upper = [5, 2, 2], cells = 1 }
+ux = "-0.001*t"
+rotation_x = 0
+rotation_y = 0
+rotation_z = 0
+[[contact]]
 sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
+[[contact]]
+sides = [{ body = "anvil", label = "top" }, { body = "plate", label = "bottom" }]
+friction = 0.5
+[[contact]]
+sides = [{ body = "beside", label = 2 }, { body = "wall", label = "left" }]
 [[quantity]]
 name = "floor"
 reaction = { body = "lower", label = "bottom" }
