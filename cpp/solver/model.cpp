@@ -110,10 +110,6 @@ void withMeshes(const BodiesOfPair& of, const Work& work) {
          ContactMesh{mortar.mesh(), mortar.elementNodes()});
 }
 
-}  // namespace
-
-namespace {
-
 bool isZero(const Datum& value, const SpacePoint& at) {
   return value && value.constant() && value(at, 0) == 0;
 }

@@ -8,7 +8,7 @@ is right. Works and heat, which are sums over steps, are not asked for.
 
     tests/compare/known_values.py [--count 300] [--first SEED] [--jobs N] [--mortier PROGRAM]
 
-The shares that docs/measurements.md names are told at the end.
+The last lines print the shares of scenes that docs/measurements.md quotes.
 """
 import math
 import sys
