@@ -7,6 +7,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/heap.h"
 #include "commands/command_line.h"
 #include "linear/blas.h"
 #include "linear/distributed_engine.h"
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   // A reader that goes away and a file that may not grow are errors of a write, not the end of the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  keepHeap();
   dense::endThreadsOfBlas();
   try {
     startProcesses(argc, argv);

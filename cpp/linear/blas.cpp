@@ -14,7 +14,7 @@ namespace mortier::dense {
 namespace {
 
 /// OpenBLAS takes a processor that is newer than itself for one without AVX, and is half as fast: it gets the
-/// kernels for AVX2 where the processor has it. \returns whether it did
+/// kernels for what the processor has. \returns whether it did
 bool useVectorUnits() {
 #ifdef __x86_64__
   constexpr const char* kernels = "OPENBLAS_CORETYPE";
@@ -22,7 +22,9 @@ bool useVectorUnits() {
       std::getenv(kernels) != nullptr || std::string_view(openblas_get_corename()) != "Prescott" ||
       !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     return false;
-  setenv(kernels, "Haswell", 1);
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  setenv(kernels, wide ? "SkylakeX" : "Haswell", 1);
   gotoblas_dynamic_quit();
   gotoblas_dynamic_init();
   unsetenv(kernels);
