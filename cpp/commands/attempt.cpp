@@ -11,6 +11,7 @@
 #include "linear/distributed_engine.h"
 #include "linear/versions.h"
 #include "plan/loads.h"
+#include "report/stored_state.h"
 #include "scene/build.h"
 #include "scene/load_courses.h"
 #include "scene/versions.h"
@@ -65,6 +66,25 @@ void lookAhead(SceneDescription& scene, const Model& model) {
   scene.time.data = std::move(loads.data);
 }
 
+/// Bodies are where another run left them. \throws InputError
+void startWith(const SceneDescription& scene, RunFacts& facts, Model& model, State& state) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(scene.startWhere + ": start = \"" + scene.start + "\": " + what);
+  };
+  const StoredState stored = readState(scene.start + "/" + stateName);
+  try {
+    state = beginningWith(stored, model, scene.units);
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  if (!(scene.time.end > state.time))
+    refuse("it ends at t = " + shortest(state.time) +
+           ", expected a time before time.end = " + shortest(scene.time.end));
+  for (size_t b = 0; b < model.bodies.size(); ++b) model.bodies[b].holdAt(state.bodies[b].displacement);
+  facts.start = scene.start;
+  facts.startTime = state.time;
+}
+
 }  // namespace
 
 Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) {
@@ -78,6 +98,7 @@ Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) 
   description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
   solved.state = initialState(*model);
+  if (!description.start.empty()) startWith(description, facts, *model, solved.state);
 }
 
 namespace {

@@ -16,6 +16,7 @@
 #include "report/clock.h"
 #include "report/log.h"
 #include "report/manifest.h"
+#include "report/stored_state.h"
 #include "scene/build.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
@@ -39,14 +40,16 @@ RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
       identity.fileHashes.push_back(hashOf(mesh));
     });
   }
-  for (const BodyDescription& body : scene.bodies) {
-    if (!body.temperature || body.temperature->file.empty()) continue;
-    std::ifstream file(body.temperature->file, std::ios::binary);
+  const auto add = [&](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
     Checksum checksum;
     checksum.add(std::string(std::istreambuf_iterator<char>(file), {}));
-    identity.files.push_back("the file " + body.temperature->file);
+    identity.files.push_back("the file " + path);
     identity.fileHashes.push_back(checksum.value);
-  }
+  };
+  for (const BodyDescription& body : scene.bodies)
+    if (body.temperature && !body.temperature->file.empty()) add(body.temperature->file);
+  if (!scene.start.empty()) add(scene.start + "/" + stateName);
   return identity;
 }
 
@@ -206,6 +209,8 @@ void Run::putInPlace() {
     for (const Body& body : attempt_->model->bodies)
       write(body.name() + ".mesh",
             body.withMesh([](const auto& mesh, const auto&) { return meditText(mesh); }));
+  if (attempt_->scene().keepsState)
+    write(stateName, stateText(*attempt_->model, solved.state, attempt_->facts.units));
   write("summary.json", summary_);
   placed_ = folder_->commit(manifest);
 }

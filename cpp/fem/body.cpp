@@ -1,6 +1,7 @@
 #include "fem/body.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -227,6 +228,35 @@ std::array<Body::Part, 3> Body::parts(int node, const SpacePoint& vector) const 
   std::array<Part, 3> parts;
   for (int c = 0; c < dimension(); ++c) parts[c] = {equations()[dimension() * node + c], own[c]};
   return parts;
+}
+
+void Body::holdAt(const Vector& displacement) {
+  const auto still = [](auto value) {
+    Datum datum(std::move(value));
+    datum.inTime = false;
+    return datum;
+  };
+  if (rigid()) {
+    const Vector motion = motionOf(displacement);
+    for (size_t c = 0; c < conditions_.rigid->whereItIs.size(); ++c)
+      if (conditions_.rigid->whereItIs[c])
+        conditions_.rigid->held[c] = still([value = motion[c]](const SpacePoint&, double) { return value; });
+  }
+  for (size_t c = 0; c < conditions_.displacements.size(); ++c) {
+    if (!conditions_.displacements[c].whereItIs) continue;
+    std::map<std::array<double, 3>, double> along;  // by places of nodes
+    for (const NodeSupport& support : supports_.nodes())
+      for (int i = 0; i < support.count; ++i) {
+        if (support.conditions[i] != static_cast<int>(c)) continue;
+        SpacePoint u = SpacePoint::Zero();
+        u.head(dimension()) = displacement.segment(dimension() * support.node, dimension());
+        along[{support.place.x(), support.place.y(), support.place.z()}] = u.dot(support.directions[i]);
+      }
+    conditions_.displacements[c].value = still([along](const SpacePoint& x, double) {
+      const auto at = along.find({x.x(), x.y(), x.z()});
+      return at == along.end() ? 0 : at->second;
+    });
+  }
 }
 
 void Body::prescribe(double t, Vector& u) const {

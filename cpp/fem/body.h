@@ -43,10 +43,11 @@ struct InitialStress {
 /// where it is. Where contact follows it and it may turn, they stand for the motions, and its nodes are where
 /// a rotation by theta takes them (Body::moved).
 struct RigidMotion {
-  SpacePoint at;             ///< z = 0 in the plane [m]
-  std::vector<Datum> held;   ///< [m] and [rad], functions of time; empty where the motion is free
-  std::vector<Datum> force;  ///< of free motions [N/m], [N], in space [N], [N m]; may be empty
-  bool turns = false;        ///< by finite angles
+  SpacePoint at;                     ///< z = 0 in the plane [m]
+  std::vector<Datum> held;           ///< [m] and [rad], functions of time; empty where the motion is free
+  std::vector<Datum> force;          ///< of free motions [N/m], [N], in space [N], [N m]; may be empty
+  bool turns = false;                ///< by finite angles
+  std::vector<bool> whereItIs = {};  ///< by motions: held as in the state in which the run begins; or empty
 };
 
 struct Conditions {
@@ -203,6 +204,8 @@ class Body {
   }
 
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
+  /// Conditions that hold it where it is hold it at this displacement (dofs).
+  void holdAt(const Vector& displacement);
   [[nodiscard]] const Supports& supports() const { return supports_; }
   /// Writes the prescribed displacements at time t into `u` (dofs).
   void prescribe(double t, Vector& u) const;

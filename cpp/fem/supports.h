@@ -26,8 +26,9 @@ struct Condition {
   int component = 0;
   Datum value = {};
   std::optional<SpacePoint> point =
-      {};               ///< where the vertex is, in place of the label [m]; z = 0 in the plane
-  bool onAxis = false;  ///< of all nodes with x = 0, in place of the label
+      {};                  ///< where the vertex is, in place of the label [m]; z = 0 in the plane
+  bool onAxis = false;     ///< of all nodes with x = 0, in place of the label
+  bool whereItIs = false;  ///< the displacement in which the run begins, in place of the value
 
   [[nodiscard]] bool actsOn(int boundary) const { return !point && !onAxis && label == boundary; }
 };

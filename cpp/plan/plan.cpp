@@ -198,7 +198,9 @@ class Planner {
     const double tolerance = stepTolerance(scene_);
     const bool forRounds = inRounds() && !elastic;
     const std::string equal =
-        counted(time.steps, "step") + " of " + shortest(time.end / time.steps) + " " + scene_.units.time;
+        counted(time.steps, "step") +
+        (scene_.start.empty() ? " of " + shortest(time.end / time.steps) + " " + scene_.units.time
+                              : ", equal, from the end of " + scene_.start);
     const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
                                (forRounds ? " in the last round" : "");
     add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),

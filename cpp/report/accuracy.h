@@ -63,6 +63,8 @@ struct RunFacts {
   std::string scheme;
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
+  std::string start;     ///< the result with whose last state the run begins; empty: none
+  double startTime = 0;  ///< [s]
   int threads = 1;
   int processes = 0;  ///< that factorise the bodies together; 0: none but this one
   SolverOptions solver;

@@ -1,10 +1,7 @@
 #include "report/checkpoint.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "base/archive.h"
@@ -12,6 +9,7 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "report/checkpoint_members.h"
+#include "report/sealed_file.h"
 
 namespace mortier {
 
@@ -22,12 +20,6 @@ namespace {
 /// Names the layout (checkpoint_members.h) and what a scene means; it changes with any member.
 constexpr std::string_view magic = "mortier checkpoint 17\n";
 
-uint64_t sumOf(std::string_view bytes) {
-  Checksum sum;
-  sum.add(bytes);
-  return sum.value;
-}
-
 template <class... Lists>
 uint64_t hashOfLists(const Lists&... lists) {
   Checksum sum;
@@ -35,27 +27,9 @@ uint64_t hashOfLists(const Lists&... lists) {
   return sum.value;
 }
 
-/// What a checkpoint begins with: the rest is not read where this says that it is of another size.
-constexpr size_t headSize = magic.size() + sizeof(uint64_t);
-
 Checkpoint decode(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const uint64_t size = fs::file_size(path);
-  uint64_t sum = 0;
-  uint64_t stored = 0;
-  if (size < headSize + sizeof sum) throw InputError("too short");
-  std::string bytes(headSize, '\0');
-  if (!file.read(bytes.data(), headSize)) throw InputError("cannot be read");
-  if (bytes.compare(0, magic.size(), magic) != 0) throw InputError("not of this version of mortier");
-  std::memcpy(&stored, bytes.data() + magic.size(), sizeof stored);
-  if (stored != size) throw InputError("damaged");
-  bytes.resize(size);
-  if (!file.read(bytes.data() + headSize, static_cast<std::streamsize>(size - headSize)))
-    throw InputError("cannot be read");
-  const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
-  std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-  if (sum != sumOf(content)) throw InputError("damaged");
-  ArchiveReader reader(content.substr(headSize));
+  const std::string content = readSealed(path, magic);
+  ArchiveReader reader(content);
   Checkpoint checkpoint;
   reader(checkpoint);
   if (!reader.bytes.empty()) throw InputError("damaged");
@@ -93,18 +67,12 @@ uint64_t hashOf(const TriangleMesh& mesh) {
 }
 
 void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint) {
-  static_assert(std::endian::native == std::endian::little);
   ArchiveWriter writer;
-  writer.bytes = std::string(magic).append(headSize - magic.size(), '\0');
   writer(const_cast<Checkpoint&>(checkpoint));  // one list of members serves reading and writing
-  const uint64_t size = writer.bytes.size() + sizeof(uint64_t);
-  std::memcpy(writer.bytes.data() + magic.size(), &size, sizeof size);
-  const uint64_t sum = sumOf(writer.bytes);
-  writer.bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   const std::string path = folder + "/" + checkpointName;
   std::error_code none;
   fs::rename(path, folder + "/" + previousCheckpointName, none);
-  writeWhole(path, writer.bytes, true);
+  writeWhole(path, sealed(magic, writer.bytes), true);
 }
 
 Checkpoint readCheckpoint(const std::string& folder) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "report/checkpoint.h"
+#include "report/stored_state.h"
 
 namespace mortier {
 
@@ -37,6 +38,9 @@ MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, frictionWorkOf,
                 gapWork, tieForce)
+MORTIER_MEMBERS(StoredState::StoredBody, name, mesh)
+MORTIER_MEMBERS(StoredState::StoredPair, bodies, labels, nodes)
+MORTIER_MEMBERS(StoredState, units, bodies, contacts, ties, state)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)

@@ -109,7 +109,7 @@ bool isSound(const std::string& folder, const Manifest& manifest) {
 }
 
 bool isResultName(const std::string& name) {
-  constexpr std::array fixed{"fields.pvd", "contact.csv", "history.csv", "summary.json"};
+  constexpr std::array fixed{"fields.pvd", "contact.csv", "history.csv", "summary.json", "state"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
   // <body>.mesh, <body>_<step>.vtu
   const fs::path path(name);

@@ -244,6 +244,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["nonmortar"] = facts.nonmortar;
   json["projection"] = facts.projection;
   json["scheme"] = facts.scheme;
+  if (!facts.start.empty()) json["start"] = {{"result", facts.start}, {"time", facts.startTime}};
   const int dimension = model.bodies.front().dimension();
   const char* elements = model.bodies.front().elementsWord();
   for (const char* count : {elements, "nodes", "dofs", "free_dofs"})

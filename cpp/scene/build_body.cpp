@@ -106,6 +106,7 @@ Body buildTool(const BodyDescription& tool, Mesh mesh, const SceneDescription& s
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     motion.held.push_back(held ? finiteValue(c.value, inSpace) : Datum());
     motion.force.push_back(held ? Datum() : finiteValue(c.value, inSpace));
+    motion.whereItIs.push_back(c.whereItIs);
   }
   motion.turns = tool.turns() && isFollowed(scene, tool.name);
   Conditions conditions;
@@ -149,6 +150,10 @@ void requireOneDisplacement(const Body& body, std::vector<const ConditionDescrip
   for (const FurtherMotion& motion : supports.further()) {
     const NodeSupport& support = supports.nodes()[motion.support];
     const SpacePoint& p = support.place;
+    const auto staysWhereItIs = [&](int condition) { return described[condition]->whereItIs; };
+    if (staysWhereItIs(motion.condition) ||
+        std::any_of(support.conditions.begin(), support.conditions.begin() + support.count, staysWhereItIs))
+      continue;
     for (const double t : times) {
       std::array<double, 3> values{};
       for (int i = 0; i < support.count; ++i) values[i] = conditions[support.conditions[i]].value(p, t);
@@ -188,6 +193,7 @@ Body buildBody(const BodyDescription& body, Mesh mesh, const SceneDescription& s
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     Condition condition{c.label, c.component, finiteValue(c.value, inSpace), c.pointInSpace};
     if (c.point) condition.point = asSpacePoint(*c.point);
+    condition.whereItIs = c.whereItIs;
     (held ? conditions.displacements : conditions.tractions).push_back(std::move(condition));
     if (held) displacements.push_back(&c);
   }

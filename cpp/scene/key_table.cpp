@@ -15,6 +15,8 @@ plane | | `"stress"` | `"stress"`, `"strain"`, `"axisymmetric"` | of all bodies:
   bodies with no strain across the plane ([below](#plane-strain)), or bodies that turn about the axis x = 0
   ([below](#bodies-of-revolution))
 body, tool, contact, quantity, time, solver, output, check
+start | | none: bodies as drawn, at rest | a result of a run with `output.state = true` | the run begins with
+  the last state of that one, at its time ([below](#runs-that-go-on))
 dimension | | 2 | integer >= 2, at most 3 | 3: bodies of tetrahedra, without `plane`
   ([below](#bodies-in-space))
 degree | | 1 | integer >= 1, at most 2 | of the displacements: linear triangles, or quadratic ones (six nodes,
@@ -139,8 +141,9 @@ initial_stress | Pa | that of the body | table as above | component by component
 [body.boundary] `[[body.boundary]]` | | none | any number | conditions on one label; a component not named is
   free
 label | | | a boundary label of the mesh, by number or name | of the edges
-ux, uy, uz | m | free | datum | prescribed displacement; `uz` with `dimension = 3`
-un, ut | m | free | datum | prescribed displacement along the outward normal and along the tangent (the body
+ux, uy, uz | m | free | datum, or `"held"` | prescribed displacement; held: that in which the run begins
+  ([below](#runs-that-go-on)); `uz` with `dimension = 3`
+un, ut | m | free | datum, or `"held"` | prescribed displacement along the outward normal and along the tangent (the body
   to its left), on sides in any direction: `un = 0` is a roller
 tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the displacement of the same
   component; `tz` with `dimension = 3`
@@ -291,6 +294,7 @@ bound | | false | true, false | a bound of the error of the stress at the end, p
 [output] `[output]` | | | table |
 every | | 0 | integer >= 0 | fields and contact are kept for the steps 0, k, 2k, ... and the last one; 0: the
   last one only
+state | | false | true, false | the result has the last state, with which another run may `start`
 [check] `[check]` | | | table |
 allow | | none | list of ids | warnings of `mortier check` that are meant as they are ([check.md](check.md))
 )";

@@ -30,10 +30,17 @@ void readBoundary(const Node& node, BodyDescription& body) {
   const size_t before = body.conditions.size();
   const bool space = node.inSpace;
   const auto add = [&](const std::string& key, Datum kind, int component) {
-    if (std::optional<Expression> datum = table.datum(key))
-      addCondition(
-          body, {kind, label.number, label.name, component,
-                 key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where});
+    const bool moves = kind == Datum::displacement;
+    std::optional<Expression> datum = moves ? table.displacement(key) : table.datum(key);
+    if (!datum) return;
+    ConditionDescription condition{kind,
+                                   label.number,
+                                   label.name,
+                                   component,
+                                   key == "pressure" ? negated(std::move(*datum)) : std::move(*datum),
+                                   table.find(key)->where};
+    condition.whereItIs = moves && table.isHeld(key);
+    addCondition(body, condition);
   };
   requireOfDimension(table, {"uz", "tz"}, {"ut"});
   add("ux", Datum::displacement, alongX);
@@ -62,8 +69,9 @@ void readPoint(const Node& node, BodyDescription& body) {
   const size_t before = body.conditions.size();
   const Keys keys{"ux", "uy", "uz"};
   for (condition.component = 0; condition.component < 3; ++condition.component)
-    if (const auto datum = table.datum(keys[condition.component])) {
+    if (const auto datum = table.displacement(keys[condition.component])) {
       condition.value = *datum;
+      condition.whereItIs = table.isHeld(keys[condition.component]);
       addCondition(body, condition);
     }
   if (body.conditions.size() == before)
@@ -102,13 +110,6 @@ void readRegion(const Node& node, BodyDescription& body) {
   body.regions.push_back(std::move(region));
 }
 
-/// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
-std::string pathOf(const Node& node, const std::string& scenePath) {
-  const std::filesystem::path path(node.text);
-  if (path.is_absolute() || node.fromCommandLine) return path.string();
-  return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
-}
-
 /// A datum, or a file of nodal values with a factor in x, y and t.
 TemperatureDescription readTemperature(const TableReader& owner, const std::string& scenePath,
                                        const std::string& subject) {
@@ -132,6 +133,12 @@ void requireFileKeys(const TableReader& table) {
 }
 
 }  // namespace
+
+std::string pathOf(const Node& node, const std::string& scenePath) {
+  const std::filesystem::path path(node.text);
+  if (path.is_absolute() || node.fromCommandLine) return path.string();
+  return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
+}
 
 /// A path, or a table with what is to be made of the file, or of what shape the mesh is.
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body) {

@@ -96,12 +96,13 @@ void readMotion(const TableReader& table, bool axisymmetric, BodyDescription& to
     if (table.has(displacement)) table.rejectIfGiven({force}, std::string("either it or ") + displacement);
     const bool free = table.has(force);
     const char* key = free ? force : displacement;
-    std::optional<Expression> value = table.datum(key);
+    std::optional<Expression> value = free ? table.datum(key) : table.displacement(key);
     if (!value) value = constantExpression(0, table.message(tool.where, std::string(key) + " = 0"));
     if (value->value.degree > 0) table.reject(key, "a function of t alone: a tool moves as a whole");
     ConditionDescription condition{
         free ? Kind::traction : Kind::displacement,          0, "", static_cast<int>(c), *value,
         table.has(key) ? table.find(key)->where : tool.where};
+    condition.whereItIs = !free && table.isHeld(key);
     if (space)
       condition.pointInSpace = *tool.reference;
     else

@@ -68,6 +68,10 @@ class TableReader {
   [[nodiscard]] SpacePoint spacePoint(const std::string& key, std::optional<SpacePoint> fallback = {}) const;
   /// A number, an expression in x, y, in space z, and t, or a table in time; none where the key is missing.
   [[nodiscard]] std::optional<Expression> datum(const std::string& key) const;
+  /// Of a displacement: whether it is "held", as it is at the start of the run.
+  [[nodiscard]] bool isHeld(const std::string& key) const;
+  /// The same; 0 where it is held.
+  [[nodiscard]] std::optional<Expression> displacement(const std::string& key) const;
   /// The table or tables under `key` (an array of tables or a single one), none where it is missing.
   [[nodiscard]] std::vector<const Node*> tables(const std::string& key) const;
 
@@ -100,6 +104,10 @@ Units readUnits(const Node& scene);
 /// Makes numbers of the scene's units of all numbers with a unit, young = "210 GPa". What has no unit that is
 /// known, or one of another dimension, is refused, and any unit in a scene that says none.
 void convertMeasures(Node& scene, const Units& units);
+
+/// The path of a file that a key of the scene names: relative to the scene, on the command line to the current
+/// folder.
+std::string pathOf(const Node& node, const std::string& scenePath);
 
 /// [time]: equal steps, or steps chosen by their error.
 TimePlan readTime(const Node& node);

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "scene/readers.h"
@@ -124,8 +125,11 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
   }
   if (const Node* node = root.find("accuracy"))
     readAccuracy(TableReader(*node, "accuracy", "accuracy"), scene);
-  if (const Node* node = root.find("output"))
-    scene.every = TableReader(*node, "output", "output").integer("every");
+  if (const Node* node = root.find("output")) {
+    const TableReader output(*node, "output", "output");
+    scene.every = output.integer("every");
+    scene.keepsState = output.boolean("state");
+  }
   if (const Node* node = root.find("check"))
     scene.allowed = TableReader(*node, "check", "check").strings("allow");
 }
@@ -187,6 +191,28 @@ void requireEstimated(const ContactDescription& contact, int degree) {
                      " beside accuracy: the estimate does not see the false stresses of interpolation");
 }
 
+/// The result with whose last state the run begins. \throws InputError beside what begins from bodies at rest
+void readStart(const TableReader& root, SceneDescription& scene) {
+  const Node* start = root.find("start");
+  if (start == nullptr) return;
+  static_cast<void>(root.string("start"));
+  scene.start = pathOf(*start, scene.path);
+  scene.startWhere = start->where;
+  if (std::error_code none; !std::filesystem::is_regular_file(scene.start + "/state", none))
+    root.reject("start", "a result with a state, of a run with output.state = true (there is no " +
+                             scene.start + "/state)");
+  if (root.has("accuracy"))
+    root.reject("start", "none beside accuracy, whose estimates are of bodies that begin at rest");
+  for (const BodyDescription& body : scene.bodies) {
+    const auto given = [](const auto& component) { return component.has_value(); };
+    bool stressed = std::ranges::any_of(body.initialStress, given);
+    for (const RegionDescription& region : body.regions)
+      stressed = stressed || std::ranges::any_of(region.initialStress, given);
+    if (stressed)
+      root.reject("start", "none beside initial_stress: body " + body.name + " has the stress of that state");
+  }
+}
+
 void markInSpace(Node& node) {
   node.inSpace = true;
   for (Node& element : node.elements) markInSpace(element);
@@ -228,6 +254,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
     scene.bodies.push_back(std::move(body));
   }
   readTools(root, scene);
+  readStart(root, scene);
   for (const Node* contact : root.tables("contact")) {
     ContactDescription described = readContact(*contact, scene);
     if (scene.accuracy.energy > 0) requireEstimated(described, scene.degree);
@@ -246,7 +273,8 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
 
 bool BodyDescription::turns() const {
   return isTool() && std::any_of(conditions.begin(), conditions.end(), [](const ConditionDescription& c) {
-           const bool held = c.kind == ConditionDescription::Kind::displacement && c.value.constant;
+           const bool held =
+               c.kind == ConditionDescription::Kind::displacement && c.value.constant && !c.whereItIs;
            return c.turns() && !(held && c.value.value(0, 0, 0) == 0);
          });
 }

@@ -70,6 +70,7 @@ struct ConditionDescription {
   std::optional<Point> point = {};  ///< in place of the label; resolveScene makes it that of a vertex [m]
   std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
   bool onAxis = false;                          ///< of the axis of revolution, in place of the label
+  bool whereItIs = false;                       ///< a displacement: that in which the run begins
 
   [[nodiscard]] bool actsOn(int boundary) const {
     return !point && !pointInSpace && !onAxis && label == boundary;
@@ -219,6 +220,9 @@ struct SceneDescription {
   AccuracyGoal accuracy;
   int every =
       0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
+  std::string start;  ///< the result with whose last state the run begins; empty: bodies as drawn, at rest
+  std::string startWhere;            ///< file and line of it
+  bool keepsState = false;           ///< whether the result is to have the last state, for another run
   std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)
 
   [[nodiscard]] bool inSpace() const { return dimension == 3; }

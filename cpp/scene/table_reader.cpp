@@ -167,6 +167,16 @@ std::optional<Expression> TableReader::datum(const std::string& key) const {
   return parseExpression(node.text, where, node.inSpace);
 }
 
+bool TableReader::isHeld(const std::string& key) const {
+  const Node* node = find(key);
+  return node != nullptr && node->isString() && node->text == "held";
+}
+
+std::optional<Expression> TableReader::displacement(const std::string& key) const {
+  if (!isHeld(key)) return datum(key);
+  return constantExpression(0, message(find(key)->where, key + " = \"held\""));
+}
+
 Expression TableReader::timeTable(const std::string& key, const Node& node) const {
   const TableReader table(node, "datum", subject_.empty() ? key : subject_ + ": " + key);
   const std::vector<double> times = table.numbers("time");

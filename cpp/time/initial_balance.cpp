@@ -13,8 +13,9 @@ bool actsAtOnce(const Model& model, const State& state) {
     const Body& body = model.bodies[b];
     Vector prescribed = Vector::Zero(body.dofs());
     body.prescribe(state.time, prescribed);
-    acts = acts || body.hasInitialStress() || !prescribed.isZero(0) || !body.load(state.time).isZero(0) ||
-           (body.heated() && !body.thermalStrain(state.time).isZero(0));
+    const bool isAtRest = state.bodies[b].displacement.isZero(0) && state.bodies[b].stress.isZero(0);
+    acts = acts || !isAtRest || body.hasInitialStress() || !prescribed.isZero(0) ||
+           !body.load(state.time).isZero(0) || (body.heated() && !body.thermalStrain(state.time).isZero(0));
   }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     double largest = 0;

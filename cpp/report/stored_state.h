@@ -1,0 +1,49 @@
+// The last state of a run as a file of its result, with which another run may begin: on the same meshes, with
+// other supports, loads, contacts or materials.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+struct StoredState {
+  /// A body, by its name, and the hash of its mesh.
+  struct StoredBody {
+    std::string name;
+    uint64_t mesh = 0;
+  };
+  /// A contact or a tie, by the sides, and the nodes of its rows.
+  struct StoredPair {
+    std::array<std::string, 2> bodies;
+    std::array<int, 2> labels{};
+    std::vector<int> nodes;
+  };
+
+  std::array<std::string, 4> units;  ///< length, force, stress, time
+  std::vector<StoredBody> bodies;
+  std::vector<StoredPair> contacts, ties;
+  State state;
+};
+
+constexpr const char* stateName = "state";
+
+/// The bytes of the file.
+std::string stateText(const Model& model, const State& state, const Units& units);
+
+/// \throws InputError
+StoredState readState(const std::string& path);
+
+/// The state in which a run of the model begins: bodies of the other run, by name, are where they were then,
+/// with their stress, others as drawn, at rest. A contact of the same rows keeps its forces, gaps and slip;
+/// another one is open, at the distance at which the bodies are. \throws InputError where a body has another
+/// mesh, or stresses of other components
+State beginningWith(const StoredState& stored, const Model& model, const Units& units);
+
+}  // namespace mortier
