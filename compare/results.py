@@ -1,6 +1,6 @@
 """Results of both codes, read into the same form: fields by vertex and triangle, contact by node, scalars.
 
-A run folder of mortier is described in docs/scene.md, one of FreeFEM in freefem/README.md. Whatever is
+A run folder of mortier is described in docs/results.md, one of FreeFEM in freefem/README.md. Whatever is
 missing, cut short or not finite is a ResultError with the file's name.
 """
 import argparse

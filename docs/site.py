@@ -29,8 +29,8 @@ FONT = Path("/usr/share/fonts/truetype/dejavu/DejaVuMathTeXGyre.ttf")
 # Groups of the navigation; what is linked to but not named here is reached by that link.
 NAVIGATION = {
     "Begin": ["README.md", "docs/tutorial.md", "docs/gallery.md"],
-    "Use": ["docs/install.md", "docs/scene.md", "docs/limits.md", "docs/check.md", "docs/pictures.md",
-            "docs/study.md", "docs/compare.md", "docs/python.md", "docs/scaling.md"],
+    "Use": ["docs/install.md", "docs/scene.md", "docs/limits.md", "docs/check.md", "docs/results.md",
+            "docs/pictures.md", "docs/study.md", "docs/compare.md", "docs/python.md", "docs/scaling.md"],
     "Understand": ["docs/theory.md", "docs/sliding.md", "docs/space.md", "docs/bounds.md",
                    "docs/measurements.md", "docs/decisions.md", "docs/glossary.md", "docs/benchmarks.md",
                    "docs/published.md"],
