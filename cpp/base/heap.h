@@ -2,9 +2,9 @@
 
 namespace mortier {
 
-/// For a program at its start, where freed memory is to stay in the heap and the heap is to be mapped in large
-/// pages: a run takes the same memory again and again, and every page that the system maps anew costs as much
-/// as the values of several hundred numbers in it. Nothing happens where the C library is not GNU's.
+/// At the start of a program: memory that is freed stays in the heap, which is mapped in large pages. A run
+/// takes and frees the same memory again and again, and pages that are mapped anew cost as much time as the
+/// work in them. Only with GNU's C library.
 void keepHeap();
 
 }  // namespace mortier

@@ -143,8 +143,8 @@ initial_stress | Pa | that of the body | table as above | component by component
 label | | | a boundary label of the mesh, by number or name | of the edges
 ux, uy, uz | m | free | datum, or `"held"` | prescribed displacement; held: that in which the run begins
   ([below](#runs-that-go-on)); `uz` with `dimension = 3`
-un, ut | m | free | datum, or `"held"` | prescribed displacement along the outward normal and along the tangent (the body
-  to its left), on sides in any direction: `un = 0` is a roller
+un, ut | m | free | datum, or `"held"` | prescribed displacement along the outward normal and along the
+  tangent (the body to its left), on sides in any direction: `un = 0` is a roller
 tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the displacement of the same
   component; `tz` with `dimension = 3`
 pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`

@@ -105,8 +105,7 @@ Units readUnits(const Node& scene);
 /// known, or one of another dimension, is refused, and any unit in a scene that says none.
 void convertMeasures(Node& scene, const Units& units);
 
-/// The path of a file that a key of the scene names: relative to the scene, on the command line to the current
-/// folder.
+/// The path of a file that a key names: relative to the scene, on the command line to the current folder.
 std::string pathOf(const Node& node, const std::string& scenePath);
 
 /// [time]: equal steps, or steps chosen by their error.

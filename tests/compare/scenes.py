@@ -83,6 +83,7 @@ max_iterations = 200
 linear = "suitesparse"
 [output]
 every = 2
+state = true
 """
 
 BODY_KEYS = """\

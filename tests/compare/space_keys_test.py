@@ -241,6 +241,8 @@ DIFFERENT = {
                                      ELASTIC, "time.steps=1"),
     "accuracy.max_seconds": refused("max_seconds = -1", "accuracy.energy=0.1", "accuracy.max_seconds=-1"),
     "output.every": added("output.every=1"),
+    "output.state": added("output.state=true"),
+    "start": added("start=begun"),
     # Of the plane.
     "plane": refused(NOT_IN_SPACE, "plane=strain"),
     "body.volume": added("body.upper.volume=averaged", ELASTIC),
@@ -311,6 +313,9 @@ class SpaceKeys(InFolder):
             self.write(blocks(middle), name)
         self.write(BOX, "box.geo")
         self.write("\n".join(str(i) for i in range(27)) + "\n", "hot.txt")
+        done = mortier("run", "scene.toml", "--out", "begun", "--set", "output.state=true", "--set",
+                       "time.end=0.1", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def result(self, settings):
         """Of the title, the histories and the fields."""
@@ -319,7 +324,7 @@ class SpaceKeys(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         digest = hashlib.sha256(json.loads(self.read("out/summary.json")).get("title", "").encode())
         for name in self.names("out"):
-            if name.endswith((".csv", ".vtu")):
+            if name.endswith((".csv", ".vtu", "state")):
                 digest.update(name.encode() + (self.folder / "out" / name).read_bytes())
         return digest.hexdigest()
 
