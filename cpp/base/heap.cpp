@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <vector>
 
 namespace mortier {
@@ -19,6 +20,9 @@ void keepHeap() {
   mallopt(M_TRIM_THRESHOLD, -1);
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
+  int overcommit = 0;
+  constexpr int none = 2;  // memory counts before it is written
+  if (std::ifstream("/proc/sys/vm/overcommit_memory") >> overcommit && overcommit == none) return;
   // The heap grows to half of the machine's memory, of which nothing is used before it is written.
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page;

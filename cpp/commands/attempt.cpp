@@ -66,26 +66,24 @@ void lookAhead(SceneDescription& scene, const Model& model) {
   scene.time.data = std::move(loads.data);
 }
 
-/// Bodies are where another run left them. \throws InputError
-void startWith(const SceneDescription& scene, RunFacts& facts, Model& model, State& state) {
+}  // namespace
+
+State startOf(const SceneDescription& scene, const Model& model) {
+  if (scene.start.empty()) return initialState(model);
   const auto refuse = [&](const std::string& what) {
     throw InputError(scene.startWhere + ": start = \"" + scene.start + "\": " + what);
   };
-  const StoredState stored = readState(scene.start + "/" + stateName);
+  State state;
   try {
-    state = beginningWith(stored, model, scene.units);
+    state = beginningWith(readState(scene.start + "/" + stateName), model, scene.units);
   } catch (const InputError& error) {
     refuse(error.what());
   }
   if (!(scene.time.end > state.time))
     refuse("it ends at t = " + shortest(state.time) +
            ", expected a time before time.end = " + shortest(scene.time.end));
-  for (size_t b = 0; b < model.bodies.size(); ++b) model.bodies[b].holdAt(state.bodies[b].displacement);
-  facts.start = scene.start;
-  facts.startTime = state.time;
+  return state;
 }
-
-}  // namespace
 
 Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) {
   SceneDescription& description = resolved.description;
@@ -97,8 +95,11 @@ Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) 
   facts = factsOf(description, threads);
   description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
-  solved.state = initialState(*model);
-  if (!description.start.empty()) startWith(description, facts, *model, solved.state);
+  solved.state = startOf(description, *model);
+  for (size_t b = 0; b < model->bodies.size(); ++b)
+    model->bodies[b].holdAt(solved.state.bodies[b].displacement);
+  facts.start = description.start;
+  facts.startTime = solved.state.time;
 }
 
 namespace {

@@ -26,6 +26,10 @@ struct Attempt {
   [[nodiscard]] const SceneDescription& scene() const { return resolved.description; }
 };
 
+/// The state in which a run of the scene begins: bodies at rest, or as another run has left them. \throws
+/// InputError where that is no state of these bodies
+State startOf(const SceneDescription& scene, const Model& model);
+
 /// The bound of the error of its last state and its quantities (bound/energy_bound.h): whatever goes wrong in
 /// it is its obstacle, the result stays.
 EnergyBound boundOf(const Attempt& attempt);

@@ -9,6 +9,7 @@
 #include "base/digits.h"
 #include "base/printable.h"
 #include "bound/energy_bound.h"
+#include "commands/attempt.h"
 #include "commands/command_line.h"
 #include "commands/freefem.h"
 #include "lint/lint.h"
@@ -78,6 +79,7 @@ int check(const SceneOptions& command, bool json) {
   const LintReport report = lint(command.scene, command.settings);
   Plan plan;
   if (report.model) {
+    static_cast<void>(startOf(*report.scene, *report.model));
     plan = planOf(*report.scene, *report.model);
     addRefusals(*report.scene, *report.model, plan);
   }

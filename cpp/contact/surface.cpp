@@ -288,12 +288,6 @@ void shareFunctions(VertexTable& vertices) {
   }
 }
 
-std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
-  if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
-  return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
-          4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
-}
-
 SurfaceRefinement::SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar,
                                      const TriangleTree& tree)
     : reach(std::min(nonmortar.extent, mortar.extent)),

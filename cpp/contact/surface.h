@@ -167,9 +167,6 @@ VertexTable verticesOf(const ContactSurface& surface);
 /// Gives the hat functions without a row to neighbours that have one.
 void shareFunctions(VertexTable& vertices);
 
-/// Values of the shape functions of a surface of a degree at barycentric coordinates.
-std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b);
-
 /// The common refinement of two surfaces. A nonmortar triangle faces the mortar surface along n ~ R1 n1 -
 /// R2 n2, n1, n2 the outward normals and R1, R2 the radii of curvature of both surfaces, as in the plane
 /// (directions.h): a plane triangle along its own normal, a curved one that faces a plane along the normal of

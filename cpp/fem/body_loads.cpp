@@ -88,7 +88,7 @@ Vector Body::spaceLoad(double t) const {
                                        : SpacePoint(area.norm() * SpacePoint::Unit(traction.component));
       for (const auto& [at, weight] : onTriangle) {
         const double value = weight * traction.value(x0 + at.x() * e1 + at.y() * e2, t);
-        const std::array<double, 6> N = faceShapes(nodes.degree, at.x(), at.y());
+        const std::array<double, 6> N = traceShapes(nodes.degree, {1 - at.x() - at.y(), at.x(), at.y()});
         for (int a = 0; a < nodes.perFace(); ++a)
           f.segment<3>(3 * static_cast<Eigen::Index>(face[a])) += value * N[a] * direction;
       }

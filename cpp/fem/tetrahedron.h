@@ -86,13 +86,6 @@ decltype(auto) withSpaceElement(int degree, Work work) {
   return degree == 1 ? work(LinearTetrahedron{}) : work(QuadraticTetrahedron{});
 }
 
-/// Shape functions on a side of an element: of its vertices, then of the middles 0-1, 1-2, 2-0.
-inline std::array<double, 6> faceShapes(int degree, double l1, double l2) {
-  const double l0 = 1 - l1 - l2;
-  if (degree == 1) return {l0, l1, l2, 0, 0, 0};
-  return {l0 * (2 * l0 - 1), l1 * (2 * l1 - 1), l2 * (2 * l2 - 1), 4 * l0 * l1, 4 * l1 * l2, 4 * l2 * l0};
-}
-
 // With G = gradient / sqrt2, a displacement (x, y, z) of a node strains by
 //   k: (Gx x + Gy y - 2 Gz z)/sqrt3,  q: Gx x - Gy y,  r: Gy x + Gx y,
 //   13: Gz x + Gx z,  23: Gz y + Gy z,  h: sqrt(2/3) (Gx x + Gy y + Gz z).

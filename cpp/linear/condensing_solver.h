@@ -53,9 +53,7 @@ class CondensingSolver {
   Threads* threads_ = &Threads::none();
 };
 
-/// Analyses the pattern once. `kept` are equations, each once.
-using CondensingSolverFactory =
-    std::function<std::unique_ptr<CondensingSolver>(const SparsePattern&, const std::vector<int>& kept)>;
+// Solvers that analyse the pattern once. `kept` are equations, each once.
 
 /// Multifrontal Cholesky (symmetric patterns) or LU, the kept equations a last front that is never
 /// factorised.

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -128,13 +127,7 @@ struct LawDescription {
   std::string variant;  ///< "frobenius"; may be empty
   std::vector<Parameter> parameters;
   bool flows = true;
-  /// Of a flow (s - P s)/(2 viscosity), P a projection onto a convex set.
-  struct ProjectedFlow {
-    double viscosity = 0;       ///< [Pa s]
-    double yieldStress = 0;     ///< [Pa]
-    bool hasPotential = false;  ///< P is orthogonal for the product s : t
-  };
-  std::optional<ProjectedFlow> projected = {};  ///< none where the flow is another one
+  bool projects = false;  ///< it flows by (s - P s)/(2 viscosity), P a projection onto a convex set
 
   /// "Perzyna (frobenius)"
   [[nodiscard]] std::string text() const { return variant.empty() ? name : name + " (" + variant + ")"; }

@@ -138,8 +138,7 @@ LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& vis
   LawDescription description = describe("Perzyna", elasticity);
   description.parameters.push_back({"viscosity", viscoplasticity.viscosity, "Pa s"});
   description.parameters.push_back({"yield_stress", viscoplasticity.yieldStress, "Pa"});
-  // In plane strain B is a cylinder and all projections are one.
-  description.projected = {viscoplasticity.viscosity, viscoplasticity.yieldStress, true};
+  description.projects = true;
   return description;
 }
 
@@ -154,9 +153,6 @@ std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
     if (viscoplasticity.projection == Projection::elasticity) w[0] = e[0] / e[1];
     if (viscoplasticity.projection == Projection::compliance) w[0] = e[1] / e[0];
     description.variant = projectionNames[static_cast<int>(viscoplasticity.projection)];
-    // Without Poisson's effect E is a multiple of the identity.
-    description.projected->hasPotential =
-        viscoplasticity.projection == Projection::frobenius || elasticity.poisson == 0;
   }
   return isotropicMaterial(elasticity, plane, description, [&]<size_t n>(const Pair& e, const Pair& a) {
     return PerzynaLaw<n>(e, a, w, viscoplasticity);

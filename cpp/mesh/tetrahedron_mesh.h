@@ -75,6 +75,13 @@ struct SpaceNodes {
   [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
 };
 
+/// Values of the shape functions of a boundary triangle at barycentric coordinates, in the order of its nodes.
+inline std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
+  if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
+  return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
+          4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
+}
+
 /// \param degree  1 or 2; sides are straight.
 SpaceNodes spaceNodes(const TetrahedronMesh& mesh, int degree);
 

@@ -18,7 +18,7 @@ namespace {
 /// Whether a central path leads to the law, on which few iterations depend on its stiffness.
 bool hasPath(const Material& material) {
   const std::vector<LawDescription> laws = material.laws();
-  return std::ranges::any_of(laws, [](const LawDescription& law) { return law.projected.has_value(); });
+  return std::ranges::any_of(laws, [](const LawDescription& law) { return law.projects; });
 }
 
 /// Whether a law that flows is linearised where the strain leads in every method.

@@ -221,7 +221,9 @@ class Refused(Case):
         self.begin(self.text + until(1, 1))
 
     def refuse_start(self, text, message):
+        """In run and check."""
         self.refuse('start = "first"\n' + text, message)
+        self.assertIn(message, self.mortier("check", "scene.toml", code=2).stderr)
 
     def test_scenes_of_other_bodies(self):
         self.refuse_start(self.text.replace("cells = [6, 5]", "cells = [6, 6]") + until(2, 1),
