@@ -71,7 +71,7 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 State startOf(const SceneDescription& scene, const Model& model) {
   if (scene.start.empty()) return initialState(model);
   const auto refuse = [&](const std::string& what) {
-    throw InputError(scene.startWhere + ": start = \"" + scene.start + "\": " + what);
+    throw InputError(scene.startWhere + ": start = \"" + scene.start + "\": " + what, "start");
   };
   State state;
   try {
@@ -96,8 +96,12 @@ Attempt::Attempt(ResolvedScene scene, int threads) : resolved(std::move(scene)) 
   description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
   solved.state = startOf(description, *model);
-  for (size_t b = 0; b < model->bodies.size(); ++b)
-    model->bodies[b].holdAt(solved.state.bodies[b].displacement);
+  for (size_t b = 0; b < model->bodies.size(); ++b) {
+    const BodyState& begins = solved.state.bodies[b];
+    model->bodies[b].holdAt(begins.displacement);
+    const bool atRest = begins.displacement.isZero(0) && begins.stress.isZero(0);
+    if (!description.start.empty() && atRest) facts.asDrawn.insert(model->bodies[b].name());
+  }
   facts.start = description.start;
   facts.startTime = solved.state.time;
 }

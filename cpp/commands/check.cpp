@@ -76,10 +76,14 @@ void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) 
 
 /// \returns the exit code that a run would have, 0 where there are warnings only
 int check(const SceneOptions& command, bool json) {
-  const LintReport report = lint(command.scene, command.settings);
+  LintReport report = lint(command.scene, command.settings);
   Plan plan;
   if (report.model) {
-    static_cast<void>(startOf(*report.scene, *report.model));
+    try {
+      static_cast<void>(startOf(*report.scene, *report.model));
+    } catch (const InputError& error) {
+      addError(error, "start", report.faults);
+    }
     plan = planOf(*report.scene, *report.model);
     addRefusals(*report.scene, *report.model, plan);
   }

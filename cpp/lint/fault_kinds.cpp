@@ -14,6 +14,8 @@ const std::vector<FaultKind>& faultKinds() {
        "take the id from docs/check.md"},
       {"data", error, "data that are not finite, or contradict each other where two labels meet",
        "correct the expression, or prescribe the component on one of the labels"},
+      {"start", error, "the run cannot begin with the state of the result that start names",
+       "name a result of the same bodies, meshes and degree, which ends before time.end"},
       {"memory", error, "the run needs more memory than there is",
        "coarsen the contact lines, on which dense matrices are kept, or the meshes, or take a machine with "
        "more "

@@ -26,11 +26,6 @@ std::string computedPlace(const Point& place, double size) {
   return placeText((place.array().abs() < rounding * size).select(Point(0, 0), place));
 }
 
-/// \param id  of faults that have none of their own.
-void addError(const InputError& error, const std::string& id, Faults& faults) {
-  faults.add(error.fault().empty() ? id : error.fault(), error.what());
-}
-
 /// How deep the bodies of a contact overlap, as meshed or as its gap says:
 /// what is pressed together is no accident.
 double interferenceOf(const ContactDescription& contact, const LintInput& input) {
@@ -162,6 +157,10 @@ void lintInSpace(LintReport& report) {
 }
 
 }  // namespace
+
+void addError(const InputError& error, const std::string& id, Faults& faults) {
+  faults.add(error.fault().empty() ? id : error.fault(), error.what());
+}
 
 std::string LintInput::where(const std::vector<std::string>& keys, size_t body) const {
   const Node* at = scene.document.get();

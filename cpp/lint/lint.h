@@ -31,6 +31,9 @@ struct LintReport {
   std::optional<Model> model;             ///< none where a run would refuse the scene
 };
 
+/// An error that a run would end with, as a fault. \param id  where it does not say of which kind it is
+void addError(const InputError& error, const std::string& id, Faults& faults);
+
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
 

@@ -75,7 +75,7 @@ struct SpaceNodes {
   [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
 };
 
-/// Values of the shape functions of a boundary triangle at barycentric coordinates, in the order of its nodes.
+/// Values of the shape functions of a boundary triangle, in the order of its nodes. \param b  barycentric
 inline std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
   if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
   return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),

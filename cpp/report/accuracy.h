@@ -62,9 +62,10 @@ struct RunFacts {
   std::string projection;  ///< all projections, each once; "none" where every body is elastic
   std::string scheme;
   int plannedSteps = 0;
-  double tolerance = 0;  ///< of a step; 0: equal steps
-  std::string start;     ///< the result with whose last state the run begins; empty: none
-  double startTime = 0;  ///< [s]
+  double tolerance = 0;           ///< of a step; 0: equal steps
+  std::string start;              ///< the result with whose last state the run begins; empty: none
+  double startTime = 0;           ///< [s]
+  std::set<std::string> asDrawn;  ///< bodies that begin at rest beside it
   int threads = 1;
   int processes = 0;  ///< that factorise the bodies together; 0: none but this one
   SolverOptions solver;

@@ -56,6 +56,9 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
             lawsOf(body);
   }
   text += facts.plane == "space" ? "; in space\n" : "; plane " + facts.plane + "\n";
+  if (!facts.start.empty())
+    text += "start      " + facts.start + formatted(" at t = %.5g ", facts.startTime) + facts.units.time +
+            (facts.asDrawn.empty() ? "\n" : "; as drawn: " + joined(facts.asDrawn) + "\n");
   for (const Body& body : model.bodies) {
     text += materials(body, facts.units);
     if (body.patches() != nullptr)

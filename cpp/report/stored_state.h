@@ -41,8 +41,8 @@ std::string stateText(const Model& model, const State& state, const Units& units
 StoredState readState(const std::string& path);
 
 /// The state in which a run of the model begins: bodies of the other run, by name, are where they were then,
-/// with their stress, others as drawn, at rest. A contact of the same rows keeps its forces, gaps and slip;
-/// another one is open, at the distance at which the bodies are. \throws InputError where a body has another
+/// with their stress, others as drawn, at rest. A contact of the same rows keeps its forces and slip, another
+/// one has none; distances are those at which the bodies are. \throws InputError where a body has another
 /// mesh, or stresses of other components
 State beginningWith(const StoredState& stored, const Model& model, const Units& units);
 

@@ -2,7 +2,7 @@
 """Runs that go on from the state of another one: two runs equal one, supports are released, held, added."""
 import unittest
 
-from support import InFolder, value, values
+from support import InFolder, mortier, value, values
 
 BLOCKS = """\
 [[body]]
@@ -185,6 +185,8 @@ class Stages(Case):
         whole = self.run_it(with_contact + until(2, 4), folder="whole")
         self.begin(apart.replace("CONTACT", "") + until(0.5, 1))
         later = self.go_on(with_contact + until(2, 3))
+        again = self.mortier("run", "scene.toml", "--out", "again").stdout
+        self.assertRegex(again, r"(?m)^start +first at t = 0\.5 s; as drawn: lower$")
         self.assertGreater(value(whole, "base"), 5)
         self.assertAgree(values(whole), values(later))
 
@@ -223,11 +225,13 @@ class Refused(Case):
     def refuse_start(self, text, message):
         """In run and check."""
         self.refuse('start = "first"\n' + text, message)
-        self.assertIn(message, self.mortier("check", "scene.toml", code=2).stderr)
+        checked = mortier("check", "scene.toml", cwd=self.folder)
+        self.assertEqual((checked.returncode, checked.stderr), (2, ""))
+        self.assertIn(message, checked.stdout)
 
     def test_scenes_of_other_bodies(self):
         self.refuse_start(self.text.replace("cells = [6, 5]", "cells = [6, 6]") + until(2, 1),
-                          'scene.toml:1: start = "first": body upper has another mesh')
+                          'start = "first": body upper has another mesh')
         self.refuse_start("degree = 2\n" + self.text + until(2, 1), "body upper has another degree")
         self.refuse_start('plane = "strain"\n' + self.text + until(2, 1),
                           "has stresses of 4 components, expected 3")

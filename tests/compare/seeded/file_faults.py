@@ -15,3 +15,9 @@ def _(case):
 
 fault("data", "ux = \"1 + x\"")(lambda case: case.replace("uy = 0", "uy = \"x\"\nux = \"1 + x\""))
 fault("data", 'ty = "')(lambda case: case.replace("-10*t", "-10*t/x"))
+
+
+@fault("start", 'start = "."')
+def _(case):
+    case.raw["state"] = "of another program\n"
+    case.scene = 'start = "."\n' + case.scene
