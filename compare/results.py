@@ -251,26 +251,6 @@ def top_displacement(run, mesh_of):
     return float(np.mean(np.concatenate(values)))
 
 
-def trace(body, height=0.0):
-    """Vertices of a body on the contact line y = height, from left to right."""
-    on_line = np.flatnonzero(body.points[:, 1] == height)
-    return on_line[np.argsort(body.points[on_line, 0])]
-
-
-def jump(run, upper="upper", lower="lower"):
-    """Abscissae of the common refinement, and there u1.n1 + u2.n2: positive where the bodies penetrate [m].
-
-    Exact: both traces are linear between the abscissae.
-    """
-    sides = []
-    for name in (upper, lower):
-        body = run.bodies[name]
-        nodes = trace(body)
-        sides.append((body.points[nodes, 0], body.displacement[nodes, 1]))
-    x = np.union1d(sides[0][0], sides[1][0])
-    return x, np.interp(x, *sides[1]) - np.interp(x, *sides[0])
-
-
 def checked(path, times=10):
     """The path of a regular file that can be read; its size, `times` over, must fit into memory."""
     most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // times

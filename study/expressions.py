@@ -1,6 +1,8 @@
 """Expressions in x, y, t as scenes have them (docs/scene.md), evaluated on arrays."""
 import ast
+import functools
 import operator
+import re
 
 import numpy as np
 
@@ -28,7 +30,7 @@ class Expression:
             raise ValueError("expected visible characters")
         text = self.text.replace("^", "**").replace("&&", " and ").replace("||", " or ")
         try:
-            self.tree = ast.parse(conditional(text).strip(), mode="eval").body
+            self.tree = ast.parse(translated(text), mode="eval").body
         except (SyntaxError, RecursionError, MemoryError) as error:
             raise ValueError("expected an expression in x, y, t") from error
         allowed = {"x", "y", "t", "pi", *names}
@@ -60,51 +62,41 @@ class Expression:
             return np.broadcast_to(np.asarray(evaluate(self.tree, names), float), np.shape(x))
 
 
-def conditional(text):
-    """`a ? b : c` as where(a, b, c), innermost parentheses first."""
-    parts, depth, begin = [], 0, 0
-    out = ""
-    for i, c in enumerate(text):
-        if c == "(":
-            if depth == 0:
-                out += text[begin:i + 1]
-                begin = i + 1
-            depth += 1
-        elif c == ")":
-            depth -= 1
-            if depth < 0:
-                raise SyntaxError("unmatched )")
-            if depth == 0:
-                inner = ", ".join(conditional(part) for part in at_top(text[begin:i], ","))
-                out += f"\0{len(parts)}\0)"
-                parts.append(inner)
-                begin = i + 1
-    if depth:
-        raise SyntaxError("unmatched (")
-    out += text[begin:]
-    if "?" in out:
-        test, rest = out.split("?", 1)
-        level = 0
-        for i, c in enumerate(rest):
-            level += (c == "?") - (c == ":")
-            if level < 0:
-                out = f"where({test}, {conditional(rest[:i])}, {conditional(rest[i + 1:])})"
-                break
-        else:
-            raise SyntaxError("? without :")
-    for i, part in enumerate(parts):
-        out = out.replace(f"\0{i}\0", part)
-    return out
+def translated(text):
+    """With every `a ? b : c` as where(a, b, c)."""
+    words = re.split(r"([(),?:])", text)[::-1]
+    found = conditional(words)
+    if words:
+        raise SyntaxError(f"unmatched {words[-1]}")
+    return found.strip()
 
 
-def at_top(text, separator):
-    depth, begin, parts = 0, 0, []
-    for i, c in enumerate(text):
-        depth += (c == "(") - (c == ")")
-        if c == separator and depth == 0:
-            parts.append(text[begin:i])
-            begin = i + 1
-    return [*parts, text[begin:]]
+def conditional(words):
+    """Takes an expression from the end of the words, up to a comma, a parenthesis or a colon behind it."""
+    found = ""
+    while words and words[-1] not in ("?", ":", ",", ")"):
+        word = words.pop()
+        found += word + (arguments(words) if word == "(" else "")
+    if not words or words[-1] != "?":
+        return found
+    words.pop()
+    yes = conditional(words)
+    expect(words, ":")
+    return f"where({found}, {yes}, {conditional(words)})"
+
+
+def arguments(words):
+    found = conditional(words)
+    while words and words[-1] == ",":
+        words.pop()
+        found += ", " + conditional(words)
+    expect(words, ")")
+    return found + ")"
+
+
+def expect(words, word):
+    if not words or words.pop() != word:
+        raise SyntaxError(f"expected {word}")
 
 
 def evaluate(node, names):
@@ -120,9 +112,7 @@ def evaluate(node, names):
     if isinstance(node, ast.UnaryOp):
         return OPERATORS[type(node.op)](evaluate(node.operand, names))
     if isinstance(node, ast.BoolOp):
-        values = [evaluate(each, names) for each in node.values]
-        return OPERATORS[type(node.op)](values[0], evaluate(ast.BoolOp(node.op, node.values[1:]), names)
-                                        if len(values) > 2 else values[1])
+        return functools.reduce(OPERATORS[type(node.op)], (evaluate(each, names) for each in node.values))
     left = evaluate(node.left, names)
     result = True
     for op, right in zip(node.ops, node.comparators):

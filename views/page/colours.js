@@ -68,3 +68,22 @@ function drawLegend(panel, range) {
     return mark;
   }));
 }
+function extremes(bodies) {  // the largest of their numbers, and the smallest: value, body, index
+  const found = [null, null];
+  bodies.forEach((values, b) => values.forEach((value, i) => {
+    if (!(value <= found[0]?.value) && value === value) found[0] = {value, b, i};
+    if (!(value >= found[1]?.value) && value === value) found[1] = {value, b, i};
+  }));
+  return found;
+}
+function tellExtremes({run, most: box}, range, [most, least], placeOf, where = "") {  // gives what it tells
+  const field = fieldOf(run, now.field);
+  const told = most && !["viscoplastic", "region"].includes(field.name) &&
+      most.value - least.value > 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value));
+  const ends = !told ? [] : range.signed ? [most, least] : [most];
+  const words = ends.map((each, k) => `${k ? "smallest" : "largest"} ${
+      of(short(each.value, 4), field.unit)} in ${run.bodies[each.b].name} at (${
+      placeOf(each).map(x => short(x, 4)).join(", ")})`);
+  box.textContent = told ? words.join("; ") + where : "";
+  return ends;
+}

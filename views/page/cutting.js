@@ -66,7 +66,9 @@ function paint(panel, range) {
     setSection(each, cut, !field.contact && shown && body.tetrahedra > 0);
   }
   render(panel);
-  tellExtremes(panel, range);
+  const place = ({b, i}) => run.bodies[b].points.map(each => each[i]);
+  tellExtremes(panel, range, extremes(panel.bodies.map(each => each.values)), place,
+               run.interior || field.contact ? "" : " (on the surface)");
   drawLegend(panel, range);
 }
 const scenic = (group, values, c) => {
@@ -183,18 +185,6 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
   read.textContent = `${say(now.field)} in ${body.name} at (${
       place.map(c => short(c, 4)).join(", ")}) as meshed: ${others.flatMap(say).join(", ")}`;
   Object.assign(read.dataset, {body: body.name, value, x: place[0], y: place[1], z: place[2]});
-}
-function tellExtremes(panel, range) {
-  const {run} = panel, field = fieldOf(run, now.field);
-  const [most, least] = extremesOf(run, stepOf(run), now.field);
-  const words = (which, {value, body, node}) => `${which} ${of(short(value, 4), field.unit)} in ${
-      body.name} at (${body.points.map(each => short(each[node], 4)).join(", ")})`;
-  const told = most && !["viscoplastic", "region"].includes(field.name) &&
-      most.value - least.value > 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value));
-  const where = run.interior || field.contact ? "" : " (on the surface)";
-  panel.most.textContent = told
-    ? words("largest", most) + (range.signed ? `; ${words("smallest", least)}` : "") + where
-    : "";
 }
 
 // ---- Pointers and keys ------------------------------------------------------------------------------------
