@@ -15,8 +15,25 @@ VARIANTS = ("mortar", "interpolation")
 SIDES = ("upper", "lower")
 
 
+class Shown:
+    """How a case is shown: WIDTHS is of its columns."""
+
+    @classmethod
+    def head(cls):
+        return "".join(f"{name:<{width}} " for name, width in cls.WIDTHS.items())
+
+    @property
+    def line(self):
+        return "".join(f"{getattr(self, name):<{width}} " for name, width in self.WIDTHS.items())
+
+    @property
+    def folder(self):
+        return re.sub(r"[^\w-]+", "_", str(self))
+
+
 @dataclass(frozen=True)
-class Case:
+class Case(Shown):
+    """The note's test."""
     pair: str
     projection: str
     variant: str
@@ -24,22 +41,14 @@ class Case:
     steps: int
     scene = "scenes/compression.toml"
     within = None
-    HEAD = f"{'pair':<5} {'projection':<11} {'variant':<13} {'nonmortar':<9} {'steps':>5} "
+    WIDTHS = {"pair": 5, "projection": 11, "variant": 13, "nonmortar": 9, "steps": 5}
 
     @property
     def row(self):
         return asdict(self)
 
-    @property
-    def line(self):
-        return f"{self.pair:<5} {self.projection:<11} {self.variant:<13} {self.nonmortar:<9} {self.steps:>5} "
-
     def __str__(self):
         return f"{self.pair} {self.projection} {self.variant} nonmortar {self.nonmortar} N={self.steps}"
-
-    @property
-    def folder(self):
-        return str(self).replace("/", "-").replace(" ", "_").replace("=", "")
 
     @property
     def settings(self):
@@ -67,28 +76,20 @@ def quick_cases():
 
 
 @dataclass(frozen=True)
-class SceneCase:
+class SceneCase(Shown):
     """A scene of scenes/ in both codes."""
     name: str
     variant: str
     what: str = "as it stands"  # what the settings change
     changes: tuple = ()
-    HEAD = f"{'scene':<15} {'variant':<13} {'what':<42}"
+    WIDTHS = {"name": 15, "variant": 13, "what": 42}
 
     @property
     def row(self):
         return {"case": str(self)}
 
-    @property
-    def line(self):
-        return f"{self.name:<15} {self.variant:<13} {self.what:<42}"
-
     def __str__(self):
         return f"{self.name} {self.variant} {self.what}"
-
-    @property
-    def folder(self):
-        return re.sub(r"[^\w-]+", "_", str(self))
 
     @property
     def scene(self):
@@ -128,19 +129,29 @@ FREE_BUT_FOR_POINTS = (
     "body.lower.point=[{at=[0, -1], ux=0, uy=0}, {at=[1, -1], uy=0}]", "body.upper.point=[{at=[1, 1], ux=0}]")
 POINTS_THAT_PUSH = ("body.bottom.boundary=[{label=4, ux=0}]",
                     'body.bottom.point=[{at=[0, -2], uy=0}, {at=[1, -2], ux="-1e-5*t*(1+x)", uy="2e-5*t"}]')
-SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
+# Laws, in all bodies or one in each.
+LAWS = {"elastic": "", "Perzyna": "viscosity=1, yield_stress=1",
+        "Norton": 'law="norton", reference_stress=10, reference_rate=0.05, exponent=5',
+        "Maxwell": 'law="maxwell", relaxation_time=0.4',
+        "solid": 'law="standard-solid", relaxation_time=0.4, relaxed_fraction=0.3',
+        "plastic": 'law="viscoplastic", yield_stress=1, viscosity=0, kinematic_hardening=5, '
+                   'isotropic_hardening=10',
+        "power": 'law="viscoplastic", yield_stress=1, reference_stress=2, reference_rate=0.5, exponent=4'}
 
-NORTON = ('body.material={young=100, poisson=0.3, law="norton", reference_stress=10, reference_rate=0.05, '
-          'exponent=5}',)
 
-SOLID = ('body.material={young=100, poisson=0.3, law="standard-solid", relaxation_time=0.4, '
-         'relaxed_fraction=0.3}',)
+def of_law(law, more="", body=""):
+    parameters = "".join(f", {each}" for each in (LAWS[law], more) if each)
+    return f"body.{body and body + '.'}material={{young=100, poisson=0.3{parameters}}}"
 
-OVERSTRESS = 'body.material={young=100, poisson=0.3, law="viscoplastic", yield_stress=1, '
-POWER = (OVERSTRESS + 'reference_stress=2, reference_rate=0.5, exponent=4, kinematic_hardening=5}',)
-GROWING = (OVERSTRESS + 'viscosity=1, kinematic_hardening=5, isotropic_hardening=10}',)
-PLASTIC = (OVERSTRESS + 'viscosity=0, kinematic_hardening=5, isotropic_hardening=10}',)
 
+def beside(upper, lower):
+    return of_law(upper, body="upper"), of_law(lower, body="lower")
+
+
+SOFT = of_law("Perzyna")  # Newton's method is at ease
+NORTON, SOLID, MAXWELL, PLASTIC = ((of_law(law),) for law in ("Norton", "solid", "Maxwell", "plastic"))
+POWER = (of_law("power", "kinematic_hardening=5"),)
+GROWING = (PLASTIC[0].replace("viscosity=0", "viscosity=1"),)
 
 OWN = 'body.material={young=100, poisson=0.3, law="expression", '
 # Creep by a hyperbolic sine beyond a threshold.
@@ -151,21 +162,6 @@ SINH = (OWN + 'rate11="f*(2*s11-s22)/3", rate22="f*(2*s22-s11)/3", rate12="f*s12
 SPRUNG = (OWN + 'rate11="0.02*x_11*size", rate22="0.03*x_22*size + 0.004*s33", rate12="0.04*x_12*size", '
           'rate33="0.02*s33*size - 0.003*s11", parameters={K=30, x_11="s11-K*e11", x_22="s22-K*e22", '
           'x_12="s12-K*e12", size="1 + (x_11^2+x_22^2+2*x_12^2+s33^2)/50"}}', 'plane="strain"')
-
-# A law in each body. Beside each other none may disturb the other.
-LAWS = {"elastic": "", "Perzyna": "viscosity=1, yield_stress=1",
-        "Norton": 'law="norton", reference_stress=10, reference_rate=0.05, exponent=5',
-        "Maxwell": 'law="maxwell", relaxation_time=0.4',
-        "solid": 'law="standard-solid", relaxation_time=0.4, relaxed_fraction=0.3',
-        "plastic": 'law="viscoplastic", yield_stress=1, viscosity=0, kinematic_hardening=5, '
-                   'isotropic_hardening=10',
-        "power": 'law="viscoplastic", yield_stress=1, reference_stress=2, reference_rate=0.5, exponent=4'}
-
-
-def beside(upper, lower, young=100):
-    return tuple(f"body.{body}.material={{young={young}, poisson=0.3{', ' if LAWS[law] else ''}{LAWS[law]}}}"
-                 for body, law in (("upper", upper), ("lower", lower)))
-
 
 # The note's stiff bodies.
 STIFF = ("time.steps=3", "body.upper.material={young=3e11, poisson=0.3, law=\"viscoplastic\", viscosity=10, "
@@ -276,8 +272,7 @@ def scene_cases():
         SceneCase("stack", "interpolation", "held at points that push", POINTS_THAT_PUSH),
         SceneCase("sloped", "interpolation", "standard linear solid", (*SOLID, "time.steps=3")),
         SceneCase("turned", "mortar", "Maxwell, plane strain",
-                  ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=0.4}',
-                   'plane="strain"')),
+                  (*MAXWELL, 'plane="strain"')),
         SceneCase("sloped", "interpolation", "power of the overstress", (*POWER, "time.steps=3")),
         SceneCase("turned", "mortar", "power of the overstress, plane strain", (*POWER, 'plane="strain"')),
         SceneCase("sloped", "mortar", "hardening", (*GROWING, "time.steps=3")),
