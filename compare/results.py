@@ -222,12 +222,9 @@ def finished(run):
     for name, body in run.bodies.items():
         require_finite(run.folder, f"displacement of {name}", body.displacement)
         require_finite(run.folder, f"stress of {name}", body.stress)
-    require_finite(run.folder, "contact forces", run.contact.force)
-    require_finite(run.folder, "contact gaps", run.contact.gap)
-    for name in ("friction", "shear", "slipping", "slip"):
+    for name in ("force", "gap", "friction", "shear", "slipping", "slip", "position"):
         if getattr(run.contact, name) is not None:
-            require_finite(run.folder, name, getattr(run.contact, name))
-    require_finite(run.folder, "contact nodes", run.contact.position)
+            require_finite(run.folder, f"{name} of contact nodes", getattr(run.contact, name))
     try:
         final = run.summary["final"]
         for key in FINAL:
@@ -266,16 +263,20 @@ def checked(path, times=10):
     return path
 
 
-def read_summary(folder, failed=False):
-    """failed: a run that stopped early will do."""
-    path = Path(folder) / "summary.json"
+def read_json(path):
     try:
-        summary = json.loads(checked(path).read_text(encoding="utf-8"),
-                             parse_constant=lambda word: not_finite(path, word))
+        return json.loads(checked(path).read_text(encoding="utf-8"),
+                          parse_constant=lambda word: not_finite(path, word))
     except OSError as error:
         raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
         raise ResultError(f"{path}: {error}") from error
+
+
+def read_summary(folder, failed=False):
+    """failed: a run that stopped early will do."""
+    path = Path(folder) / "summary.json"
+    summary = read_json(path)
     if not isinstance(summary, dict) or not isinstance(summary.get("steps", 0), int):
         raise ResultError(f"{path}: no summary of a run")
     if summary.get("status") != "converged" and not (failed

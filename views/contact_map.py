@@ -127,9 +127,7 @@ class Map:
             axes.quiver(*self.at[drawn].T, *(along[drawn] @ self.turned.T)[:, :2].T, color=INK, width=0.005,
                         angles="xy", scale_units="xy", scale=values.max() / self.side,
                         alpha=np.where(self.slips[drawn], 1.0, 0.4), zorder=6)
-        axes.set_aspect("equal")
-        axes.set_xlim(window[:2])
-        axes.set_ylim(window[2:])
+        pictures.show_window(axes, window)
         name_axes(axes, self.turned, self.unit)
 
 
@@ -178,9 +176,7 @@ def contact(views):
         column[0].set_title((f"{view.result.name}: " if len(views) > 1 else "") + each.words, loc="left")
     for row, (what, unit, _, norm, _) in zip(axes, fields):
         figure.colorbar(ScalarMappable(*norm), ax=row, shrink=0.9, label=labelled(what, unit))
-    time = pictures.time_words(views[0].result, views[0].step)
-    figure.suptitle(f"{views[0].result.title}, {time}" if len(views) == 1 else time, x=0.02, ha="left",
-                    fontsize=10.5)
+    pictures.add_heading(figure, views)
     if any(each.marked for _, each in columns):
         arrows = "; arrows: shear stress, pale where nodes stick" if rough else ""
         figure.text(0.02, 0.0, f"dots: nodes of the nonmortar side, filled where there is contact{arrows}",

@@ -3,7 +3,7 @@ import numpy as np
 
 import columns
 from columns import ROUNDING, labelled
-from pictures import INK, plt, space, time_words
+from pictures import INK, add_heading, plt, space
 from runs import extent
 
 # colour, marker, width
@@ -13,8 +13,7 @@ OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
 
 def contact(views, exact=None):
     """Pressure, with friction the shear stress too, and gap along the line of every interface, all views in
-    one. exact:
-    a pressure to draw beside them."""
+    one. exact: a pressure to draw beside them."""
     if views[0].result.space:
         return space.contact_map.contact(views)
     lines = [each.result.lines(each.run) for each in views]
@@ -57,9 +56,7 @@ def contact(views, exact=None):
     what = "pressure; dashed: shear stress,\nmarks where it slips" if rough else "contact pressure"
     axes[0, 0].set_ylabel(labelled(what, views[0].result.stress_unit))
     axes[1, 0].set_ylabel(labelled("gap; marks: weighted, at nodes", views[0].result.length_unit))
-    words = time_words(views[0].result, views[0].step)
-    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
-                    fontsize=10.5)
+    add_heading(figure, views)
     if len(views) > 1 or exact is not None:
         add_legend(figure)
     return figure

@@ -46,6 +46,12 @@ for (const run of runs) {
   groups.get(names).runs.push(run);
   run.group = groups.get(names);
 }
+const WAYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+const pointIn = (canvas, event) => {  // in CSS pixels
+  const area = canvas.getBoundingClientRect();
+  return [event.clientX - area.left, event.clientY - area.top];
+};
+const showAll = (...all) => { all.forEach(group => { group.fit = true; }); redraw(); };
 const recoverable = name => /^[se]\d\d$|^von_mises$/.test(name);
 function drawLegend(panel, range) {
   const strip = panel.bar.getContext("2d"), shades = strip.createImageData(SHADES, 1);

@@ -1,14 +1,8 @@
 // ---- The page ---------------------------------------------------------------------------------------------
-const page = document.getElementById("page"), now = {
-  field: runs[0].fields[0].name,
-  step: 0,
-  scale: 1,
-  wide: false,
-  mesh: true,
-  ghost: true,
-  raw: false,
-  bands: false,
-  ranges: {}  // of a field: ends that were set
+const page = document.getElementById("page");
+const now = {
+  field: runs[0].fields[0].name, step: 0, scale: 1, wide: false, mesh: true, ghost: true, raw: false,
+  bands: false, ranges: {}  // of a field: ends that were set
 };
 const nearest = (run, t) => run.steps.reduce(
     (best, each, i) => Math.abs(each.time - t) < Math.abs(run.steps[best].time - t) ? i : best, 0);

@@ -189,10 +189,8 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
 
 // ---- Pointers and keys ------------------------------------------------------------------------------------
 for (const panel of panels) {
-  const {canvas} = panel, {group} = panel.run, tell = event => {
-    const area = canvas.getBoundingClientRect();
-    hover(panel, ...(panel.last = [event.clientX - area.left, event.clientY - area.top]));
-  };
+  const {canvas} = panel, {group} = panel.run;
+  const tell = event => hover(panel, ...(panel.last = pointIn(canvas, event)));
   canvas.addEventListener("pointermove", event => {
     if (!event.buttons && event.pointerType === "mouse") requestAnimationFrame(() => tell(event));
   });
@@ -200,11 +198,10 @@ for (const panel of panels) {
   canvas.addEventListener("pointerleave", event => {
     if (event.pointerType === "mouse" && !event.buttons) { panel.last = null; hover(panel, -1, -1); }
   });
-  canvas.addEventListener("dblclick", () => { group.fit = true; redraw(); });
+  canvas.addEventListener("dblclick", () => showAll(group));
   canvas.addEventListener("keydown", event => {
     if (!turning) return;
-    const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
-    const {camera, target} = group, [azimuth, elevation] = anglesOf(group), view = viewNames[event.key - 1];
+    const way = WAYS[event.key], {camera, target} = group, [azimuth, elevation] = anglesOf(group), view = viewNames[event.key - 1];
     if (way && event.shiftKey) {
       const e = camera.matrixWorld.elements, far = 0.1 / camera.zoom;
       target.add(new THREE.Vector3(e[0], e[1], e[2]).multiplyScalar(way[0] * far))
@@ -212,7 +209,7 @@ for (const panel of panels) {
       lookFrom(group, [azimuth, elevation]);
     } else if (way) lookFrom(group, [azimuth + 10 * way[0], elevation + 10 * way[1]]);
     else if ("+=-".includes(event.key)) camera.zoom *= event.key === "-" ? 0.8 : 1.25;
-    else if (event.key === "0") group.fit = true;
+    else if (event.key === "0") showAll(group);
     else if (view && group.runs[0].views[view]) seen(group, view);
     else return;
     event.preventDefault();
