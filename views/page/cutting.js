@@ -201,7 +201,8 @@ for (const panel of panels) {
   canvas.addEventListener("dblclick", () => showAll(group));
   canvas.addEventListener("keydown", event => {
     if (!turning) return;
-    const way = WAYS[event.key], {camera, target} = group, [azimuth, elevation] = anglesOf(group), view = viewNames[event.key - 1];
+    const way = WAYS[event.key], view = viewNames[event.key - 1];
+    const {camera, target} = group, [azimuth, elevation] = anglesOf(group);
     if (way && event.shiftKey) {
       const e = camera.matrixWorld.elements, far = 0.1 / camera.zoom;
       target.add(new THREE.Vector3(e[0], e[1], e[2]).multiplyScalar(way[0] * far))
