@@ -11,7 +11,7 @@ import html
 import numpy as np
 
 import contact_surface
-from coding import block
+from coding import NOISE, block, numbers, thinned, without_noise
 from contact_line import keys_of
 from contact_surface import surface_of
 from results import von_mises
@@ -19,7 +19,6 @@ from runs import IN_SPACE, areas, extent, natural_scale, top
 
 NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
-NOISE = 1e-9  # of the largest of a kind of field
 DOTS = 90  # on an inch of a picture
 CURVE_BITS = 10  # of each coordinate in the order of the vertices
 CONTACT = 8  # in the marks of a triangle, behind one bit for each sharp side
@@ -133,12 +132,7 @@ def digits_of(name, many):
 def step_block(meshes, fields, touching, later, many):
     """The arrays of every body in the order of `order_of`; and the ends of all fields."""
     values = {name: values_of(mesh, touching[name], fields) for name, mesh in meshes.items()}
-    for kind in ([f"s{c}" for c in IN_SPACE], [f"e{c}" for c in IN_SPACE], ["ux", "uy", "uz"]):
-        largest = {name: max(np.abs(each[name]).max(initial=0) for each in values.values()) for name in kind}
-        for name, own in largest.items():
-            if own < NOISE * max(largest.values()):
-                for each in values.values():
-                    each[name] = np.zeros_like(each[name])
+    without_noise(list(values.values()))
     return (*block([(of_body[name], digits_of(name, many)) for of_body in values.values()
                     for name in order_of(fields)], later), ranges_of(meshes, fields, values))
 
@@ -164,13 +158,13 @@ def ranges_of(meshes, fields, values):
         else:
             each = np.concatenate([of[name] for of in values.values()])
         ends = (each.min(initial=0), each.max(initial=0)) if field.of_contact else (each.min(), each.max())
-        found[name] = [float(f"{value:.6g}") for value in (*ends, top(field, each, weights, near))]
+        found[name] = numbers((*ends, top(field, each, weights, near)))
     return found
 
 
 def run_data(result, share):
     """What the page knows of the bodies of a run, and `still`, HTML; share: of NUMBERS."""
-    kept, last = result.kept, result.at(result.kept[-1][0])
+    last = result.at(result.kept[-1][0])
     contact_surface.attach(last, result.interfaces)
     fields = result.fields(last)
     room = NUMBERS * share
@@ -180,9 +174,7 @@ def run_data(result, share):
     meshes = {name: Mesh(body, interior) for name, body in last.bodies.items()}
     of_meshes = sum(3 * len(mesh.tetrahedra) + 3 * len(mesh.nodes) for mesh in meshes.values())
     of_step = sum(9 * len(mesh.nodes) + 3 * len(mesh.middles) for mesh in meshes.values())
-    most = max(1, int((room - of_meshes) / of_step))
-    if len(kept) > most:
-        kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
+    kept = thinned(result.kept, (room - of_meshes) / of_step)
     picture = still(result)  # now that the step is read
     bodies, touching = [], {}
     for name, mesh in meshes.items():
