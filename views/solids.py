@@ -14,8 +14,9 @@ import contact_surface
 from coding import NOISE, block, numbers, thinned, without_noise
 from contact_line import keys_of
 from contact_surface import surface_of
+from recovery import Means
 from results import von_mises
-from runs import IN_SPACE, areas, extent, natural_scale, top
+from runs import IN_SPACE, extent, natural_scale, top
 
 NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
@@ -29,24 +30,21 @@ class Mesh:
 
     def __init__(self, body, interior):
         surface, n = surface_of(body), len(body.points)
-        kinds = body.cells.get("region", np.zeros(len(body.tetrahedra)))
-        kinds, regions = np.unique(kinds, return_inverse=True)
-        places = body.tetrahedra + n * regions[:, None]
+        self.means = Means(body)
+        places = self.means.places
         sides = places[surface.owner[:, None], surface.local]
         used = np.unique(places if interior else sides)
         used = used[np.argsort(along_curve(body.points[used % n]), kind="stable")]
-        number = np.full(n * (regions.max() + 1), len(used))
+        number = np.full(self.means.count, len(used))  # one too large: not in the page
         number[used] = np.arange(len(used))
-        self.body, self.nodes = body, used % n
-        self.places = number[places]  # one too large: not in the page
-        self.region, self.volumes = kinds[used // n], np.repeat(areas(body), 4)
-        self.weight = np.bincount(self.places.ravel(), self.volumes, len(used) + 1)[:-1]
-        self.near = np.zeros(len(used) + 1, bool)
+        self.body, self.nodes, self.used = body, used % n, used
+        self.region, self.weight = self.means.regions[used // n], self.means.weight[used]
+        near = np.zeros(self.means.count, bool)
         if body.near is not None:
-            self.near[self.places[body.near]] = True
-        self.near = self.near[:-1]
+            near[places[body.near]] = True
+        self.near = near[used]
         self.set_triangles(number[sides], surface)
-        self.tetrahedra = np.sort(self.places, axis=1) if interior else np.zeros((0, 4), int)
+        self.tetrahedra = np.sort(number[places], axis=1) if interior else np.zeros((0, 4), int)
         self.tetrahedra = self.tetrahedra[np.lexsort(self.tetrahedra.T[::-1])]
 
     def set_triangles(self, triangles, surface):
@@ -68,9 +66,8 @@ class Mesh:
             self.ends, self.middles = ends[first], between[first]
 
     def recovered(self, values):
-        """By vertex of the page, of values by tetrahedron: their mean around it, weighted by volume."""
-        summed = np.bincount(self.places.ravel(), np.repeat(values, 4) * self.volumes, len(self.weight) + 1)
-        return summed[:-1] / np.maximum(self.weight, 1e-300)
+        """By vertex of the page, of values by tetrahedron: their mean around it."""
+        return self.means(values)[self.used]
 
     def at_nodes(self, values):
         return values[self.nodes]
