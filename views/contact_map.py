@@ -10,7 +10,7 @@ from columns import ROUNDING, labelled
 from contact_surface import CURVED, START, surface_of
 from pictures import COLOURS, INK, PRESSURES, SIGNED_COLOURS, bodies_of, plt
 from runs import extent, top_of_contact
-from surfaces import Buffer, Seen, Surface, camera, painted, show
+from surfaces import Buffer, Seen, camera, painted, show
 
 ALONG_AN_AXIS = 0.999  # cosine
 MARKED = 400  # nodes of a contact surface that are not too many to be marked
@@ -98,8 +98,8 @@ class Map:
         """What is seen, whatever is drawn on it. width: pixels."""
         if (window, width) != self.drawn:
             self.drawn = window, width
-            corners, _, _, edges = Surface.triangles(Straight(self.surface), self.body.points @ self.turned.T,
-                                                     self.chosen)
+            corners, _, _, edges = self.surface.triangles(self.body.points @ self.turned.T, self.chosen,
+                                                          straight=True)  # nodes of contact are corners
             edges, self.nodes = np.minimum(edges, 1), self.surface.nodes[self.chosen]
             if np.linalg.det(self.turned) < 0:  # seen from behind, that axes point to the right and upwards
                 corners, edges, self.nodes = corners[:, ::-1], edges[:, ::-1], self.nodes[:, ::-1]
@@ -139,17 +139,6 @@ def name_axes(axes, turned, unit):
                        f"along ({', '.join(f'{x:.2f}' for x in np.round(row, 2) + 0.0)})", unit))
 
 
-def norms(vectors):
-    return np.linalg.norm(vectors, axis=1)
-
-
-class Straight:
-    """A surface without the middles of its sides: contact nodes are its corners."""
-
-    def __init__(self, surface):
-        self.nodes, self.sharp, self.middles = surface.nodes, surface.sharp, None
-
-
 def contact(views):
     """Pressure, shear stress where there is friction, and gap on the nonmortar surface of every interface."""
     columns = [(each, Map(each, k)) for each in views for k in interfaces_of(each)]
@@ -163,8 +152,10 @@ def contact(views):
                norm_of([each.pressure for each in maps], signed=False), lambda each: None)]
     rough = any(view.run.contact.shear is not None for view in views)
     if rough:
-        fields.append(("shear stress on the nonmortar body", stress, lambda each: norms(each.shear),
-                       norm_of([norms(each.shear) for each in maps], signed=False), lambda each: each.shear))
+        def size(each):
+            return np.linalg.norm(each.shear, axis=1)
+        fields.append(("shear stress on the nonmortar body", stress, size,
+                       norm_of([size(each) for each in maps], signed=False), lambda each: each.shear))
     fields.append(("gap, weighted, at nodes", length, lambda each: each.gap,
                    norm_of([each.shown(each.gap) for each in maps], True, small), lambda each: None))
     n, width = len(columns), 4.0
