@@ -79,20 +79,25 @@ def order_of(fields):
 
 def run_data(result, share):
     """What the page knows of a run; share: of what fits into it."""
-    bodies = solids.run_data(result, share) if result.space else plane_data(result, share)
+    run, fields, parts = solids.run_data(result, share) if result.space else plane_data(result, share)
+    size = extent(run.bodies.values())
+    listed = [{"name": name, "words": field.words, "unit": field.unit, "signed": field.signed,
+               "vertex": result.space or field.by_vertex, "contact": field.of_contact}
+              for name, field in fields.items()]
+    listed.sort(key=lambda each: not each["contact"])  # contact is seen first
     return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
             "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
-            "keptSteps": len(result.kept), "history": history_of(result, bodies["extent"]), **bodies,
-            **words_of(result)}
+            "keptSteps": len(result.kept), "history": history_of(result, size), "extent": size,
+            "scale": natural_scale(run.bodies.values()), "fields": listed, **parts, **words_of(result)}
 
 
 def plane_data(result, share):
-    """Bodies and contact lines of a run in the plane; share: of TRIANGLES."""
+    """The run at the last step, its fields, and what the page knows of its bodies and contact lines; share:
+    of TRIANGLES."""
     first = result.at(result.kept[-1][0])
     triangles = sum(len(body.triangles) for body in first.bodies.values())
     kept = thinned(result.kept, TRIANGLES * share / triangles)
-    fields, size = result.fields(first), extent(first.bodies.values())
-    bodies = []
+    fields, bodies = result.fields(first), []
     for name, body in first.bodies.items():
         mesh, edges = mesh_block(body)
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
@@ -118,11 +123,8 @@ def plane_data(result, share):
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
     for backwards in (steps, ranges, *(line["steps"] for line in lines)):
         backwards.reverse()
-    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
-               "signed": field.signed}
-              for name, field in fields.items()]
-    return {"bodies": bodies, "fields": listed, "order": order_of(fields), "steps": steps, "ranges": ranges,
-            "lines": lines, "scale": natural_scale(first.bodies.values()), "extent": size}
+    return first, fields, {"bodies": bodies, "order": order_of(fields), "steps": steps, "ranges": ranges,
+                           "lines": lines}
 
 
 def history_of(result, size):

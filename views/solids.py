@@ -16,7 +16,7 @@ from contact_line import keys_of
 from contact_surface import surface_of
 from recovery import Means
 from results import von_mises
-from runs import IN_SPACE, extent, natural_scale, top
+from runs import IN_SPACE, top
 
 NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
@@ -160,7 +160,8 @@ def ranges_of(meshes, fields, values):
 
 
 def run_data(result, share):
-    """What the page knows of the bodies of a run, and `still`, HTML; share: of NUMBERS."""
+    """The run at the last step, its fields, what the page knows of its bodies, and `still`, HTML; share: of
+    NUMBERS."""
     last = result.at(result.kept[-1][0])
     contact_surface.attach(last, result.interfaces)
     fields = result.fields(last)
@@ -189,13 +190,9 @@ def run_data(result, share):
         arrays, later, ends = step_block(meshes, fields, touching, later, of_step > MANY)
         steps.append({"step": step, "time": time, **arrays})
         ranges.append(ends)
-    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": True, "signed": field.signed,
-               "contact": field.of_contact} for name, field in fields.items()]
-    listed.sort(key=lambda each: not each["contact"])  # contact is seen first
-    return {"keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
-            "steps": steps[::-1], "ranges": ranges[::-1], "lines": [],
-            "scale": natural_scale(last.bodies.values()), "extent": extent(last.bodies.values()),
-            "views": views_of(result, last), "interior": interior, "still": picture}
+    return last, fields, {"bodies": bodies, "order": order_of(fields), "steps": steps[::-1],
+                          "ranges": ranges[::-1], "lines": [], "views": views_of(result, last),
+                          "interior": interior, "still": picture}
 
 
 def still(result):
