@@ -33,22 +33,7 @@ class Expression:
             self.tree = ast.parse(translated(text), mode="eval").body
         except (SyntaxError, RecursionError, MemoryError) as error:
             raise ValueError("expected an expression in x, y, t") from error
-        allowed = {"x", "y", "t", "pi", *names}
-        for node in ast.walk(self.tree):
-            if isinstance(node, ast.Call):
-                node.func.is_function = True
-                if not isinstance(node.func, ast.Name) or node.func.id not in FUNCTIONS or node.keywords:
-                    raise ValueError("unknown function")
-            elif isinstance(node, ast.Name):
-                if not hasattr(node, "is_function") and node.id not in allowed:
-                    raise ValueError(f"unknown name {node.id}")
-            elif isinstance(node, ast.Constant):
-                if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
-                    raise ValueError(f"unexpected {node.value!r}")
-            elif not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.expr_context,
-                                       ast.operator, ast.unaryop, ast.cmpop, ast.boolop)):
-                raise ValueError(f"unexpected {type(node).__name__.lower()}")
-        try:  # functions know how many values they take
+        try:  # an evaluation meets every part of it, and functions know how many values they take
             self(np.zeros(1), np.zeros(1), 0.0, **{name: np.zeros(1) for name in names})
         except (TypeError, ArithmeticError, RecursionError, AttributeError) as error:
             raise ValueError(f"cannot be evaluated: {error}") from error
@@ -100,23 +85,28 @@ def expect(words, word):
 
 
 def evaluate(node, names):
-    if isinstance(node, ast.Constant):
+    """ValueError: something that is no part of an expression."""
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         return node.value
-    if isinstance(node, ast.Name):
+    if isinstance(node, ast.Name) and node.id in names:
         return names[node.id]
-    if isinstance(node, ast.Call):
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") in FUNCTIONS and not node.keywords:
         return FUNCTIONS[node.func.id](*(evaluate(each, names) for each in node.args))
     if isinstance(node, ast.BinOp):
-        return OPERATORS[type(node.op)](np.asarray(evaluate(node.left, names), float),
-                                        evaluate(node.right, names))
+        return operation(node.op)(np.asarray(evaluate(node.left, names), float), evaluate(node.right, names))
     if isinstance(node, ast.UnaryOp):
-        return OPERATORS[type(node.op)](evaluate(node.operand, names))
+        return operation(node.op)(evaluate(node.operand, names))
     if isinstance(node, ast.BoolOp):
-        return functools.reduce(OPERATORS[type(node.op)], (evaluate(each, names) for each in node.values))
-    left = evaluate(node.left, names)
-    result = True
-    for op, right in zip(node.ops, node.comparators):
-        right = evaluate(right, names)
-        result = np.logical_and(result, OPERATORS[type(op)](left, right))
-        left = right
-    return result
+        return functools.reduce(operation(node.op), (evaluate(each, names) for each in node.values))
+    if isinstance(node, ast.Compare):
+        values = [evaluate(each, names) for each in (node.left, *node.comparators)]
+        pairs = zip(node.ops, values, values[1:])
+        return functools.reduce(np.logical_and, (operation(op)(left, right) for op, left, right in pairs))
+    what = {ast.Name: "unknown name", ast.Call: "unknown function"}.get(type(node), "unexpected")
+    raise ValueError(f"{what} {ast.unparse(node)}")
+
+
+def operation(op):
+    if type(op) not in OPERATORS:
+        raise ValueError(f"unexpected operator {type(op).__name__.lower()}")
+    return OPERATORS[type(op)]
