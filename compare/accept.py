@@ -73,21 +73,17 @@ def main():
     parser.add_argument("--check", action="store_true", help="compares instead of renewing")
     parser.add_argument("--table", default=str(TABLE), metavar="FILE", help="another table")
     arguments = parser.parse_args()
+    path = Path(arguments.table)
     try:
         measured = measure()
+        accepted = results.read_json(path) if arguments.check else None
     except (RunError, results.ResultError) as error:
         print(f"accept: {error}", file=sys.stderr)
         return 1
-    path = Path(arguments.table)
     if not arguments.check:
         path.write_text(json.dumps(measured, indent=1) + "\n")
         print(f"{path}: {len(measured)} runs accepted")
         return 0
-    try:
-        accepted = json.loads(path.read_text())
-    except (OSError, ValueError) as error:
-        print(f"accept: {path}: {error}", file=sys.stderr)
-        return 1
     lines = drift(accepted, measured)
     print("\n".join(lines + [f"{len(measured)} runs, {len(lines)} values drifted"]))
     return 1 if lines else 0

@@ -31,7 +31,7 @@ def compare_runs(folder, settings, scene=COMPRESSION, within=None):
 
 def compare_all(cases, keep=None):
     """Prints a row a case as it is done, then how much faster mortier is. Returns the rows."""
-    print(f"{cases[0].HEAD} {'displacement':>12} {'stress':>8} {'force':>8} {'gap':>8}  {'mortier[s]':>10} "
+    print(f"{cases[0].head()}{'displacement':>12} {'stress':>8} {'force':>8} {'gap':>8}  {'mortier[s]':>10} "
           f"{'FreeFEM[s]':>10} {'ratio':>6}  verdict", flush=True)
     rows = []
     with tempfile.TemporaryDirectory(prefix="mortier-compare-") as temporary:
@@ -43,7 +43,7 @@ def compare_all(cases, keep=None):
                 f"{row['displacement']:>12.1e} {row['stress']:>8.1e} {row['force']:>8.1e} "
                 f"{row['gap']:>8.1e}  {row['mortier_s']:>10.2f} {row['freefem_s']:>10.2f} "
                 f"{row['ratio']:>6.1f}  ")
-            print(f"{case.line} {numbers}{row['verdict']}", flush=True)
+            print(f"{case.line}{numbers}{row['verdict']}", flush=True)
     for variant in dict.fromkeys(case.variant for case in cases):
         ratios = [row["ratio"] for case, row in zip(cases, rows) if row["agree"] and case.variant == variant]
         if ratios:

@@ -97,12 +97,10 @@ def compare(first, second, within=None):
 
     names = sorted(first.bodies)
     # A run may end without loads: what is left is rounding of what there was.
-    length = max(np.abs(second.bodies[name].displacement).max() for name in names)
-    stress = max(np.abs(second.bodies[name].stress).max() for name in names)
-    force = np.abs(second.contact.force).max(initial=0)
-    length = max(length, peak("displacement", first, second))
-    stress = max(stress, peak("von_mises", first, second))
-    force = max(force, peak("contact_force", first, second)/max(1, len(second.contact.force)))
+    bodies, forces = second.bodies.values(), second.contact.force
+    length = max(peak("displacement", first, second), *(np.abs(body.displacement).max() for body in bodies))
+    stress = max(peak("von_mises", first, second), *(np.abs(body.stress).max() for body in bodies))
+    force = max(peak("contact_force", first, second) / max(1, len(forces)), np.abs(forces).max(initial=0))
     extent = np.ptp(second.contact.position) if second.contact.position.size > 0 else length
     differences = []
     for what, scale, tolerance in (("displacement", length, DISPLACEMENT), ("stress", stress, STRESS)):
@@ -129,10 +127,10 @@ def compare(first, second, within=None):
     left_out = {"active_nodes"} if force > 0 and not pressed else set()
     if chosen:
         left_out |= {"contact_force", "active_nodes"}
-    if first.contact.position.shape[1] == 3:  # one point a cell of the refinement, the cut of which is free
+    in_space = second.contact.position.shape[1] == 3
+    if in_space:  # one point a cell of the refinement, the cut of which is free
         left_out |= {"interpenetration"}
     scalars = {key: value for key, value in first.scalars.items() if key not in left_out}
-    in_space = second.contact.position.shape[1] == 3
     differences += scalar_differences(scalars, second.scalars, length, stress, force,
                                       extent**2 if in_space else extent)
     if within is not None:

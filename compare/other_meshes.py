@@ -156,19 +156,12 @@ def tetrahedron_of(corners, points):
 
 def barycentric(corners, points):
     """Coordinates in a triangle each, n x 3, or in a tetrahedron, n x 4."""
-    if corners.shape[2] == 3:
-        edges = np.moveaxis(corners[:, 1:] - corners[:, :1], 1, 2)
-        flat = ~(np.abs(np.linalg.det(edges)) > 0)
-        beyond = np.linalg.solve(np.where(flat[:, None, None], np.eye(3), edges),
-                                 (points - corners[:, 0])[..., None])[..., 0]
-        beyond[flat] = -1.0  # nothing is in it
-        return np.column_stack([1 - beyond.sum(1), beyond])
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    p = points - corners[:, 0]
-    twice = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    second = (p[:, 0] * b[:, 1] - p[:, 1] * b[:, 0]) / twice
-    third = (a[:, 0] * p[:, 1] - a[:, 1] * p[:, 0]) / twice
-    return np.column_stack([1 - second - third, second, third])
+    edges = np.moveaxis(corners[:, 1:] - corners[:, :1], 1, 2)
+    flat = ~(np.abs(np.linalg.det(edges)) > 0)
+    beyond = np.linalg.solve(np.where(flat[:, None, None], np.eye(edges.shape[1]), edges),
+                             (points - corners[:, 0])[..., None])[..., 0]
+    beyond[flat] = -1.0  # nothing is in it
+    return np.column_stack([1 - beyond.sum(1), beyond])
 
 
 def read_vtu_of(path):

@@ -222,12 +222,9 @@ def finished(run):
     for name, body in run.bodies.items():
         require_finite(run.folder, f"displacement of {name}", body.displacement)
         require_finite(run.folder, f"stress of {name}", body.stress)
-    require_finite(run.folder, "contact forces", run.contact.force)
-    require_finite(run.folder, "contact gaps", run.contact.gap)
-    for name in ("friction", "shear", "slipping", "slip"):
+    for name in ("force", "gap", "friction", "shear", "slipping", "slip", "position"):
         if getattr(run.contact, name) is not None:
-            require_finite(run.folder, name, getattr(run.contact, name))
-    require_finite(run.folder, "contact nodes", run.contact.position)
+            require_finite(run.folder, f"{name} of contact nodes", getattr(run.contact, name))
     try:
         final = run.summary["final"]
         for key in FINAL:
@@ -251,26 +248,6 @@ def top_displacement(run, mesh_of):
     return float(np.mean(np.concatenate(values)))
 
 
-def trace(body, height=0.0):
-    """Vertices of a body on the contact line y = height, from left to right."""
-    on_line = np.flatnonzero(body.points[:, 1] == height)
-    return on_line[np.argsort(body.points[on_line, 0])]
-
-
-def jump(run, upper="upper", lower="lower"):
-    """Abscissae of the common refinement, and there u1.n1 + u2.n2: positive where the bodies penetrate [m].
-
-    Exact: both traces are linear between the abscissae.
-    """
-    sides = []
-    for name in (upper, lower):
-        body = run.bodies[name]
-        nodes = trace(body)
-        sides.append((body.points[nodes, 0], body.displacement[nodes, 1]))
-    x = np.union1d(sides[0][0], sides[1][0])
-    return x, np.interp(x, *sides[1]) - np.interp(x, *sides[0])
-
-
 def checked(path, times=10):
     """The path of a regular file that can be read; its size, `times` over, must fit into memory."""
     most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // times
@@ -286,16 +263,20 @@ def checked(path, times=10):
     return path
 
 
-def read_summary(folder, failed=False):
-    """failed: a run that stopped early will do."""
-    path = Path(folder) / "summary.json"
+def read_json(path):
     try:
-        summary = json.loads(checked(path).read_text(encoding="utf-8"),
-                             parse_constant=lambda word: not_finite(path, word))
+        return json.loads(checked(path).read_text(encoding="utf-8"),
+                          parse_constant=lambda word: not_finite(path, word))
     except OSError as error:
         raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
         raise ResultError(f"{path}: {error}") from error
+
+
+def read_summary(folder, failed=False):
+    """failed: a run that stopped early will do."""
+    path = Path(folder) / "summary.json"
+    summary = read_json(path)
     if not isinstance(summary, dict) or not isinstance(summary.get("steps", 0), int):
         raise ResultError(f"{path}: no summary of a run")
     if summary.get("status") != "converged" and not (failed

@@ -17,21 +17,14 @@ from problems import RunFailure  # noqa: E402
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="mortier study", description=__doc__.splitlines()[0])
-    parser.add_argument("study", metavar="STUDY",
-                        help="study, a TOML file; -: one run of a study of another machine, as a worker of "
-                             "--scheduler makes it, from standard input")
-    parser.add_argument("--out", type=Path, metavar="DIR",
-                        help="folder of the result (default: out/ and the study's name)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="runs at once (default: one a processor; wall times count only with 1)")
-    parser.add_argument("--scheduler", metavar="ADDRESS",
-                        help="runs are made by the workers of this dask scheduler instead")
-    parser.add_argument("--quiet", action="store_true", help="prints nothing but errors")
-    found = parser.parse_args()
-    if found.jobs < 1:
-        parser.error(f"--jobs {found.jobs}: expected an integer >= 1")
-    return found
+    """As the program gives them, which has their help and checks the number of jobs."""
+    parser = argparse.ArgumentParser(prog="mortier study")
+    parser.add_argument("study")  # -: a run of a study of another machine, from standard input (remote.py)
+    parser.add_argument("--out", type=Path)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--scheduler")
+    parser.add_argument("--quiet", action="store_true")
+    return parser.parse_args()
 
 
 def study(given, say):

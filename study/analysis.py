@@ -7,8 +7,10 @@ from problems import StudyError
 from table import COSTS, DONE, number
 
 ROUNDING = 1e-11  # relative errors below are rounding and tell no order
-# the first of these axes that varies is the one along which orders are fitted
-RUNNING = ("steps", "tolerance", "accuracy", "level")
+# The first of these axes that varies is the one along which orders are fitted: the column that tells how fine
+# a run is, what the slope is to be multiplied with, and in what the order is.
+REFINED = {"steps": ("steps", -1, "k"), "tolerance": ("tolerance", 1, "tolerance"),
+           "accuracy": ("accuracy", 1, "accuracy"), "level": ("dofs", -2, "h")}  # h as dofs^(-1/2)
 LAST = 3  # points that an extrapolation goes by
 
 
@@ -21,8 +23,7 @@ class Series:
     rows: list
 
     def values(self, column):
-        return np.array([number(row, column) if number(row, column) is not None else np.nan
-                         for row in self.rows])
+        return np.array([number(row, column) for row in self.rows], float)  # not a number where it has none
 
     def label(self, shown):
         """The sweep and those fixed axes that tell its series apart."""
@@ -37,7 +38,7 @@ def value_text(axis, value):
 def series_of(plan, rows):
     """Every series of the finished rows."""
     return [each for sweep in plan.sweeps
-            for each in along(sweep, rows, next((axis for axis in RUNNING if axis in varying(sweep)),
+            for each in along(sweep, rows, next((axis for axis in REFINED if axis in varying(sweep)),
                                                 (varying(sweep) or [""])[0]))]
 
 
@@ -88,17 +89,11 @@ def slope(x, y):
 def order(series, error):
     """Order of an error in what the running axis refines: (order, points, in what);
     None where there is none."""
-    y = series.values(f"error {error}")
-    if series.axis == "steps":
-        found = slope(series.values("steps"), y)
-        return found and (-found[0], found[1], "k")
-    if series.axis in ("tolerance", "accuracy"):
-        found = slope(series.values(series.axis), y)
-        return found and (found[0], found[1], series.axis)
-    if series.axis == "level":  # h as dofs^(-1/2)
-        found = slope(series.values("dofs"), y)
-        return found and (-2 * found[0], found[1], "h")
-    return None
+    if series.axis not in REFINED:
+        return None
+    column, power, what = REFINED[series.axis]
+    found = slope(series.values(column), series.values(f"error {error}"))
+    return found and (power * found[0], found[1], what)
 
 
 def front(points):

@@ -1,8 +1,5 @@
 """The axes of a sweep: what a study can vary, and the values that it takes."""
-import difflib
-
-from problems import StudyError
-from study_file import is_count, is_number, is_shown, is_text
+from study_file import is_count, is_number, is_shown, is_text, unknown
 
 # axis of a sweep: key of the scene that it sets, and what it takes
 AXES = {
@@ -47,11 +44,7 @@ def read_axes(table, levels, single):
     axes = {}
     for axis, value in flattened(table.values):
         if axis not in AXES and "." not in axis:
-            near = difflib.get_close_matches(axis, AXES, 1)
-            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown "
-                             f"axis {axis}, "
-                             + (f"did you mean {near[0]}? Expected" if near else "expected")
-                             + f" one of {', '.join(AXES)}, or a dotted key of the scene")
+            raise table.wrong(unknown("axis", axis, AXES) + ", or a dotted key of the scene", axis)
         if not is_shown(axis):
             raise table.fault(axis, value, "a key of the scene")
         values = value if isinstance(value, list) else [value]

@@ -2,7 +2,6 @@
 from dataclasses import dataclass
 
 from expressions import Expression
-from problems import StudyError
 from study_file import is_number, is_text
 
 FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
@@ -65,8 +64,7 @@ def read_exact(table, quantity, bodies, names):
     tables = {"": table}
     if each_body:
         if missing := [body for body in bodies if body not in table.values]:
-            raise StudyError(f"{table.lines.place(table.path)}: {table.words}: {missing[0]} is missing, "
-                             "expected every body")
+            raise table.wrong(f"{missing[0]} is missing, expected every body")
         tables = {body: table.table(body) for body in bodies}
     exact = {}
     for body, inner in tables.items():

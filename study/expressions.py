@@ -1,6 +1,8 @@
 """Expressions in x, y, t as scenes have them (docs/scene.md), evaluated on arrays."""
 import ast
+import functools
 import operator
+import re
 
 import numpy as np
 
@@ -28,25 +30,10 @@ class Expression:
             raise ValueError("expected visible characters")
         text = self.text.replace("^", "**").replace("&&", " and ").replace("||", " or ")
         try:
-            self.tree = ast.parse(conditional(text).strip(), mode="eval").body
+            self.tree = ast.parse(translated(text), mode="eval").body
         except (SyntaxError, RecursionError, MemoryError) as error:
             raise ValueError("expected an expression in x, y, t") from error
-        allowed = {"x", "y", "t", "pi", *names}
-        for node in ast.walk(self.tree):
-            if isinstance(node, ast.Call):
-                node.func.is_function = True
-                if not isinstance(node.func, ast.Name) or node.func.id not in FUNCTIONS or node.keywords:
-                    raise ValueError("unknown function")
-            elif isinstance(node, ast.Name):
-                if not hasattr(node, "is_function") and node.id not in allowed:
-                    raise ValueError(f"unknown name {node.id}")
-            elif isinstance(node, ast.Constant):
-                if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
-                    raise ValueError(f"unexpected {node.value!r}")
-            elif not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.expr_context,
-                                       ast.operator, ast.unaryop, ast.cmpop, ast.boolop)):
-                raise ValueError(f"unexpected {type(node).__name__.lower()}")
-        try:  # functions know how many values they take
+        try:  # an evaluation meets every part of it, and functions know how many values they take
             self(np.zeros(1), np.zeros(1), 0.0, **{name: np.zeros(1) for name in names})
         except (TypeError, ArithmeticError, RecursionError, AttributeError) as error:
             raise ValueError(f"cannot be evaluated: {error}") from error
@@ -60,73 +47,66 @@ class Expression:
             return np.broadcast_to(np.asarray(evaluate(self.tree, names), float), np.shape(x))
 
 
-def conditional(text):
-    """`a ? b : c` as where(a, b, c), innermost parentheses first."""
-    parts, depth, begin = [], 0, 0
-    out = ""
-    for i, c in enumerate(text):
-        if c == "(":
-            if depth == 0:
-                out += text[begin:i + 1]
-                begin = i + 1
-            depth += 1
-        elif c == ")":
-            depth -= 1
-            if depth < 0:
-                raise SyntaxError("unmatched )")
-            if depth == 0:
-                inner = ", ".join(conditional(part) for part in at_top(text[begin:i], ","))
-                out += f"\0{len(parts)}\0)"
-                parts.append(inner)
-                begin = i + 1
-    if depth:
-        raise SyntaxError("unmatched (")
-    out += text[begin:]
-    if "?" in out:
-        test, rest = out.split("?", 1)
-        level = 0
-        for i, c in enumerate(rest):
-            level += (c == "?") - (c == ":")
-            if level < 0:
-                out = f"where({test}, {conditional(rest[:i])}, {conditional(rest[i + 1:])})"
-                break
-        else:
-            raise SyntaxError("? without :")
-    for i, part in enumerate(parts):
-        out = out.replace(f"\0{i}\0", part)
-    return out
+def translated(text):
+    """With every `a ? b : c` as where(a, b, c)."""
+    words = re.split(r"([(),?:])", text)[::-1]
+    found = conditional(words)
+    if words:
+        raise SyntaxError(f"unmatched {words[-1]}")
+    return found.strip()
 
 
-def at_top(text, separator):
-    depth, begin, parts = 0, 0, []
-    for i, c in enumerate(text):
-        depth += (c == "(") - (c == ")")
-        if c == separator and depth == 0:
-            parts.append(text[begin:i])
-            begin = i + 1
-    return [*parts, text[begin:]]
+def conditional(words):
+    """Takes an expression from the end of the words, up to a comma, a parenthesis or a colon behind it."""
+    found = ""
+    while words and words[-1] not in ("?", ":", ",", ")"):
+        word = words.pop()
+        found += word + (arguments(words) if word == "(" else "")
+    if not words or words[-1] != "?":
+        return found
+    words.pop()
+    yes = conditional(words)
+    expect(words, ":")
+    return f"where({found}, {yes}, {conditional(words)})"
+
+
+def arguments(words):
+    found = conditional(words)
+    while words and words[-1] == ",":
+        words.pop()
+        found += ", " + conditional(words)
+    expect(words, ")")
+    return found + ")"
+
+
+def expect(words, word):
+    if not words or words.pop() != word:
+        raise SyntaxError(f"expected {word}")
 
 
 def evaluate(node, names):
-    if isinstance(node, ast.Constant):
+    """ValueError: something that is no part of an expression."""
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         return node.value
-    if isinstance(node, ast.Name):
+    if isinstance(node, ast.Name) and node.id in names:
         return names[node.id]
-    if isinstance(node, ast.Call):
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") in FUNCTIONS and not node.keywords:
         return FUNCTIONS[node.func.id](*(evaluate(each, names) for each in node.args))
     if isinstance(node, ast.BinOp):
-        return OPERATORS[type(node.op)](np.asarray(evaluate(node.left, names), float),
-                                        evaluate(node.right, names))
+        return operation(node.op)(np.asarray(evaluate(node.left, names), float), evaluate(node.right, names))
     if isinstance(node, ast.UnaryOp):
-        return OPERATORS[type(node.op)](evaluate(node.operand, names))
+        return operation(node.op)(evaluate(node.operand, names))
     if isinstance(node, ast.BoolOp):
-        values = [evaluate(each, names) for each in node.values]
-        return OPERATORS[type(node.op)](values[0], evaluate(ast.BoolOp(node.op, node.values[1:]), names)
-                                        if len(values) > 2 else values[1])
-    left = evaluate(node.left, names)
-    result = True
-    for op, right in zip(node.ops, node.comparators):
-        right = evaluate(right, names)
-        result = np.logical_and(result, OPERATORS[type(op)](left, right))
-        left = right
-    return result
+        return functools.reduce(operation(node.op), (evaluate(each, names) for each in node.values))
+    if isinstance(node, ast.Compare):
+        values = [evaluate(each, names) for each in (node.left, *node.comparators)]
+        pairs = zip(node.ops, values, values[1:])
+        return functools.reduce(np.logical_and, (operation(op)(left, right) for op, left, right in pairs))
+    what = {ast.Name: "unknown name", ast.Call: "unknown function"}.get(type(node), "unexpected")
+    raise ValueError(f"{what} {ast.unparse(node)}")
+
+
+def operation(op):
+    if type(op) not in OPERATORS:
+        raise ValueError(f"unexpected operator {type(op).__name__.lower()}")
+    return OPERATORS[type(op)]

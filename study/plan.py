@@ -108,14 +108,15 @@ def read(path):
     elif missing := [error for error in errors if error.exact is None]:
         raise StudyError(f"{lines.place('error')}: error {missing[0].name}: exact is missing, expected "
                          "exact or a table [reference]")
-    sweeps = [read_sweep(each, i, levels, lines) for i, each in enumerate(top.tables("sweep", required=True))]
-    names = [sweep.name for sweep in sweeps]
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            raise StudyError(f"{lines.place(f'sweep.{i}.name')}: sweep {i}: name = {text(name)}, expected a "
-                             "name of its own")
-    comparisons = [read_comparison(each, errors, names) for each in top.tables("compare")]
-    plan = Plan(path, title, scene, meshes, sweeps, errors, reference, comparisons, let, timeout, repeat)
+    sweeps = {}
+    for i, each in enumerate(top.tables("sweep", required=True)):
+        name = each.take("name", "a text", is_text, f"sweep {i}")
+        if name in sweeps:
+            raise each.fault("name", name, "a name of its own")
+        sweeps[name] = read_sweep(each, name, levels)
+    comparisons = [read_comparison(each, errors, sweeps) for each in top.tables("compare")]
+    plan = Plan(path, title, scene, meshes, [*sweeps.values()], errors, reference, comparisons, let, timeout,
+                repeat)
     decides = {key: document.get(key) for key in ("mesh", "error", "reference", "let", "repeat", "timeout")}
     files = [scene, *(scene.parent / mesh_file(body)
                       for body in tomllib.loads(scene.read_text(encoding="utf-8"))["body"]),
@@ -154,8 +155,7 @@ def read_meshes(table, bodies, folder):
     meshes = {}
     for name in list(table.values):
         if name not in bodies:
-            place = table.lines.place(f"mesh.{name}")
-            raise StudyError(f"{place}: mesh: {name}, expected one of the bodies {', '.join(bodies)}")
+            raise table.wrong(f"{name}, expected one of the bodies {', '.join(bodies)}", name)
         value = table.take(name, "{ kind, cells, lower, upper } or a list of files",
                            lambda v: isinstance(v, dict) or (isinstance(v, list) and v
                                                              and all(map(is_text, v))))
@@ -168,9 +168,8 @@ def read_meshes(table, bodies, folder):
             meshes[name] = generated(Table(value, table.lines, f"mesh.{name}", f"mesh {name}"))
     lengths = {len(each) for each in meshes.values()}
     if len(lengths) > 1:
-        raise StudyError(f"{table.lines.place('mesh')}: mesh: "
-                         f"{', '.join(f'{k}: {len(v)}' for k, v in meshes.items())} levels, expected as many "
-                         "for each body")
+        levels = ", ".join(f"{name}: {len(each)}" for name, each in meshes.items())
+        raise table.wrong(f"{levels} levels, expected as many for each body")
     return meshes, lengths.pop()
 
 
@@ -191,13 +190,12 @@ def generated(table):
     return [{"kind": kind, "cells": n, "lower": lower, "upper": upper} for n in cells]
 
 
-def read_sweep(table, index, levels, lines):
-    name = table.take("name", "a text", is_text, f"sweep {index}")
+def read_sweep(table, name, levels):
     table.words = f"sweep {name}"
     axes = read_axes(table, levels, single=False)
     if "steps" in axes and "tolerance" in axes:
-        raise StudyError(f"{lines.place(f'sweep.{index}.tolerance')}: {table.words}: steps and tolerance, "
-                         "expected one of them (steps are chosen by the tolerance)")
+        raise table.wrong("steps and tolerance, expected one of them (steps are chosen by the tolerance)",
+                          "tolerance")
     cases = [Case(tuple(sorted(zip(axes, values)))) for values in itertools.product(*axes.values())]
     return Sweep(name, cases)
 

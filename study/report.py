@@ -18,9 +18,8 @@ pre{background:#f7f7f7;padding:.8em;overflow-x:auto;font-size:12.5px}small{color
 
 
 def cells(values, tag="td", kind=""):
-    return f"<tr{f' class={kind}' if kind else ''}>" + "".join(f"<{tag}>{html.escape(shown(v))}</{tag}>"
-                                                               for v in values) \
-        + "</tr>"
+    row = "".join(f"<{tag}>{html.escape(shown(value))}</{tag}>" for value in values)
+    return f"<tr{f' class={kind}' if kind else ''}>{row}</tr>"
 
 
 def short(column, value):

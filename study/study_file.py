@@ -46,18 +46,19 @@ class Table:
         self.values, self.lines, self.path, self.words = dict(values), lines, path, words
         self.known = []
 
+    def wrong(self, what, key=""):
+        """The error of the table, or of one of its keys."""
+        place = self.lines.place(f"{self.path}.{key}".strip("."))
+        return StudyError(f"{place}: {self.words + ': ' if self.words else ''}{what}")
+
     def fault(self, key, value, expected):
-        at = self.lines.place(f"{self.path}.{key}".strip("."))
-        subject = f"{self.words}: " if self.words else ""
-        return StudyError(f"{at}: {subject}{key} = {text(value)}, expected {expected}")
+        return self.wrong(f"{key} = {text(value)}, expected {expected}", key)
 
     def take(self, key, expected, test, default=REQUIRED):
         self.known.append(key)
         if key not in self.values:
             if default is REQUIRED:
-                place = self.lines.place(self.path)
-                raise StudyError(f"{place}: {self.words + ': ' if self.words else ''}{key} is missing, "
-                                 f"expected {expected}")
+                raise self.wrong(f"{key} is missing, expected {expected}")
             return default
         value = self.values.pop(key)
         if not test(value):
@@ -77,15 +78,15 @@ class Table:
 
     def finish(self, known=()):
         for key in self.values:
-            if key in known:
-                continue
-            self.known = list(known) or self.known
-            near = difflib.get_close_matches(key, self.known, 1)
-            place = self.lines.place(f"{self.path}.{key}".strip("."))
-            subject = f"{self.words}: " if self.words else ""
-            raise StudyError(f"{place}: {subject}unknown key {key}, " + (f"did you mean {near[0]}? Expected"
-                                                                         if near
-                             else "expected") + f" one of {', '.join(self.known)}")
+            if key not in known:
+                raise self.wrong(unknown("key", key, known or self.known), key)
+
+
+def unknown(kind, name, known):
+    """In words, with the name that may be meant."""
+    near = difflib.get_close_matches(name, known, 1)
+    expected = f"did you mean {near[0]}? Expected" if near else "expected"
+    return f"unknown {kind} {name}, {expected} one of {', '.join(known)}"
 
 
 def text(value):

@@ -42,9 +42,8 @@ def read(path):
 def is_done(row):
     values = [column for column in row if column in (*COSTS.values(), *CLAIMS)
               or str(column).startswith("error ")]
-    return row.get("status") == DONE and None not in row and all(row[each] == ""
-                                                                 or number(row, each) is not None
-                                                                  for each in values)
+    return row.get("status") == DONE and None not in row and \
+        all(row[each] == "" or number(row, each) is not None for each in values)
 
 
 def rows(plan, measurements):

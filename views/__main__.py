@@ -18,6 +18,7 @@ VIEWS = ("front", "top", "contact")
 
 
 def numbers(count):
+    """Reads so many of them as a list; one as a number."""
     def read(text):
         try:
             values = [float(word) for word in text.split(",")]
@@ -26,7 +27,7 @@ def numbers(count):
         if len(values) != count or not all(map(math.isfinite, values)):
             raise argparse.ArgumentTypeError(f"{text}: expected {count} numbers"
                                              if count > 1 else f"{text}: expected a number")
-        return values
+        return values if count > 1 else values[0]
     return read
 
 
@@ -34,14 +35,14 @@ def a_view(text):
     """front, top, contact, or azimuth and elevation of the eye in degrees."""
     if text in VIEWS:
         return text
-    words = f"{text}: expected {', '.join(VIEWS)} or AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90"
     try:
-        angles = numbers(2)(text)
-    except argparse.ArgumentTypeError as error:
-        raise argparse.ArgumentTypeError(words) from error
-    if not (abs(angles[0]) <= 360 and abs(angles[1]) <= 90):
-        raise argparse.ArgumentTypeError(words)
-    return angles
+        azimuth, elevation = numbers(2)(text)
+        if abs(azimuth) <= 360 and abs(elevation) <= 90:
+            return azimuth, elevation
+    except argparse.ArgumentTypeError:
+        pass
+    raise argparse.ArgumentTypeError(f"{text}: expected {', '.join(VIEWS)} or AZIMUTH,ELEVATION in degrees, "
+                                     "-360 to 360 and -90 to 90")
 
 
 class Parser(argparse.ArgumentParser):
@@ -112,16 +113,15 @@ def plot(given):
         raise Wrong(f"--out {folder}: --animate makes a .gif")
 
     # 2. The pictures.
-    scale = given.scale[0] if given.scale else None
     made = {}
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
             made[folder if single else folder / "animation.gif"] = images.animation(
-                results, given.field, scale, given.window, given.raw, look)
+                results, given.field, given.scale, given.window, given.raw, look)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
-            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
+            figure = {"fields": lambda: pictures.fields(views, given.field, given.scale, given.window,
                                                         raw=given.raw, look=look),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
@@ -176,7 +176,6 @@ def compare(given):
     require("numpy", "matplotlib", "meshio")
     import comparison
 
-    given.within = given.within[0] if given.within else None
     if given.within is not None and not given.within > 0:
         raise Wrong("--within: expected a number above 0")
     if given.accept and (given.against or given.picture):

@@ -125,11 +125,7 @@ class Reader:
         instance = options.get("INSTANCE", "").upper()
         scope = self.instances.get(instance, instance) or self.scope
         if keyword == "NODE":
-            number = self.whole(words[0], place)
-            try:
-                x = [float(word.upper().replace("D", "E")) for word in words[1:4]]
-            except ValueError:
-                x = []
+            number, x = self.whole(words[0], place), numbers(words[1:4])
             if not 2 <= len(x) or not np.isfinite(x).all():
                 self.fail(place, f"node {number} at {', '.join(words[1:4])[:60]}, expected two or three "
                                  "finite coordinates")
@@ -179,10 +175,7 @@ class Reader:
         return []
 
     def move(self, options: dict[str, str], line: str, place: str, head: str) -> None:
-        try:
-            x = [float(word) for word in line.rstrip(",").split(",")]
-        except ValueError:
-            x = []
+        x = numbers(line.rstrip(",").split(","))
         if self.scope in self.moved or len(x) != 3:
             self.fail(place, f"instance {options.get('NAME')} of line {head.rpartition(':')[2]} is turned, "
                              "expected three numbers by which it is moved")
@@ -242,28 +235,23 @@ class Reader:
             for scope, of, words, place in rows:
                 if of == "NODE":
                     nodes_of.setdefault(self.written[name], []).extend(
-                        self.nodes_named(scope, words[0], place))
+                        self.named_by(words[0], self.node_sets, self.nodes, "a node", scope, place))
                 elif of == "ELEMENT":
                     sides.setdefault(self.written[name], []).extend(self.sides_named(scope, words, place))
         return Groups(np.array(self.places).reshape(-1, 3), blocks, sides, nodes_of)
 
-    def nodes_named(self, scope: str, word: str, place: str) -> list[int]:
-        if word.upper() in self.node_sets:
-            return self.members(self.node_sets, self.nodes, word.upper())
-        if not word.isdecimal() or (scope, int(word)) not in self.nodes:
-            self.fail(place, f"{word[:40]!r}, expected a node or a set of nodes")
-        return [self.nodes[scope, int(word)]]
+    def named_by(self, word: str, sets: dict[str, list[Any]], known: dict[tuple[str, int], Any], what: str,
+                 scope: str, place: str) -> list[Any]:
+        """What a set has, or a number stands for."""
+        if word.upper() in sets:
+            return self.members(sets, known, word.upper())
+        if not word.isdecimal() or (scope, int(word)) not in known:
+            self.fail(place, f"{word[:40]!r}, expected {what} or a set of {what.split()[1]}s")
+        return [known[scope, int(word)]]
 
     def sides_named(self, scope: str, words: list[str], place: str) -> list[tuple[int, ...]]:
-        word = words[0]
-        if word.upper() in self.element_sets:
-            members = self.members(self.element_sets, self.elements, word.upper())
-        elif word.isdecimal() and (scope, int(word)) in self.elements:
-            members = [self.elements[scope, int(word)]]
-        else:
-            self.fail(place, f"{word[:40]!r}, expected an element or a set of elements")
         found = []
-        for name, i in members:
+        for name, i in self.named_by(words[0], self.element_sets, self.elements, "an element", scope, place):
             kind, cell = self.kinds[name][0], self.of_type[name][i][1]
             side = words[1].upper() if len(words) > 1 else ""
             if side in ("SPOS", "SNEG") and kind in ("triangle", "quad", "line"):
@@ -274,6 +262,14 @@ class Reader:
                 self.fail(place,
                           f"side {side or 'none'} of a {kind}, expected S1 to S{len(SIDES.get(kind, ()))}")
         return found
+
+
+def numbers(words: list[str]) -> list[float]:
+    """None where one of the words is no number; D stands for E in those of Fortran."""
+    try:
+        return [float(word.upper().replace("D", "E")) for word in words]
+    except ValueError:
+        return []
 
 
 def read(path: Path) -> Groups:

@@ -1,8 +1,34 @@
 """Numbers as few bytes: decimals, differences, deflated. views/page/data.js reads them back."""
 import base64
+import re
 import zlib
 
 import numpy as np
+
+NOISE = 1e-9  # of the largest of a kind of field
+
+
+def numbers(values, digits=6):
+    return [float(f"{value:.{digits}g}") for value in values]
+
+
+def thinned(steps, most):
+    """So many steps of those that were kept, one at least, the last one among them."""
+    if len(steps) <= most:
+        return steps
+    return [steps[i] for i in sorted({round(i) for i in np.linspace(len(steps) - 1, 0, max(1, int(most)))})]
+
+
+def without_noise(bodies):
+    """bodies: of each name of a field -> numbers. A component below the rounding of the others of its kind
+    becomes 0."""
+    for kind in ("u[xyz]", r"s\d\d", r"e\d\d"):
+        largest = {name: max(np.abs(each[name]).max(initial=0) for each in bodies)
+                   for name in bodies[0] if re.fullmatch(kind, name)}
+        for name, own in largest.items():
+            if own < NOISE * max(largest.values()):
+                for each in bodies:
+                    each[name] = np.zeros_like(each[name])
 
 
 def quantised(values, digits):

@@ -197,9 +197,7 @@ def draw_in_plane(axes, run, values, norm, colours, place):
     corner = np.clip(place.at - side / 2, low, np.maximum(high - side, low))
     for each, (left, right) in zip(axes, ((low, high), (corner, corner + side))):
         pictures.draw_bodies(each, run, 0.0, values, norm, colours)
-        each.plot(*place.at, marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, clip_on=False)
+        pictures.circle(each, place.at)
         margin = 0.03 * (right - left).max()
-        each.set_aspect("equal")
-        each.set_xlim(left[0] - margin, right[0] + margin)
-        each.set_ylim(left[1] - margin, right[1] + margin)
+        pictures.show_window(each, (left[0] - margin, right[0] + margin, left[1] - margin, right[1] + margin))
     axes[1].set_title(f"where it is largest: {place.body}", loc="left")

@@ -10,7 +10,7 @@ from columns import ROUNDING, labelled
 from contact_surface import CURVED, START, surface_of
 from pictures import COLOURS, INK, PRESSURES, SIGNED_COLOURS, bodies_of, plt
 from runs import extent, top_of_contact
-from surfaces import Buffer, Seen, Surface, camera, painted, show
+from surfaces import Buffer, Seen, camera, painted, show
 
 ALONG_AN_AXIS = 0.999  # cosine
 MARKED = 400  # nodes of a contact surface that are not too many to be marked
@@ -98,8 +98,8 @@ class Map:
         """What is seen, whatever is drawn on it. width: pixels."""
         if (window, width) != self.drawn:
             self.drawn = window, width
-            corners, _, _, edges = Surface.triangles(Straight(self.surface), self.body.points @ self.turned.T,
-                                                     self.chosen)
+            corners, _, _, edges = self.surface.triangles(self.body.points @ self.turned.T, self.chosen,
+                                                          straight=True)  # nodes of contact are corners
             edges, self.nodes = np.minimum(edges, 1), self.surface.nodes[self.chosen]
             if np.linalg.det(self.turned) < 0:  # seen from behind, that axes point to the right and upwards
                 corners, edges, self.nodes = corners[:, ::-1], edges[:, ::-1], self.nodes[:, ::-1]
@@ -127,9 +127,7 @@ class Map:
             axes.quiver(*self.at[drawn].T, *(along[drawn] @ self.turned.T)[:, :2].T, color=INK, width=0.005,
                         angles="xy", scale_units="xy", scale=values.max() / self.side,
                         alpha=np.where(self.slips[drawn], 1.0, 0.4), zorder=6)
-        axes.set_aspect("equal")
-        axes.set_xlim(window[:2])
-        axes.set_ylim(window[2:])
+        pictures.show_window(axes, window)
         name_axes(axes, self.turned, self.unit)
 
 
@@ -139,17 +137,6 @@ def name_axes(axes, turned, unit):
         axis = int(np.abs(row).argmax())
         label(labelled("xyz"[axis] if row[axis] > ALONG_AN_AXIS else
                        f"along ({', '.join(f'{x:.2f}' for x in np.round(row, 2) + 0.0)})", unit))
-
-
-def norms(vectors):
-    return np.linalg.norm(vectors, axis=1)
-
-
-class Straight:
-    """A surface without the middles of its sides: contact nodes are its corners."""
-
-    def __init__(self, surface):
-        self.nodes, self.sharp, self.middles = surface.nodes, surface.sharp, None
 
 
 def contact(views):
@@ -165,8 +152,10 @@ def contact(views):
                norm_of([each.pressure for each in maps], signed=False), lambda each: None)]
     rough = any(view.run.contact.shear is not None for view in views)
     if rough:
-        fields.append(("shear stress on the nonmortar body", stress, lambda each: norms(each.shear),
-                       norm_of([norms(each.shear) for each in maps], signed=False), lambda each: each.shear))
+        def size(each):
+            return np.linalg.norm(each.shear, axis=1)
+        fields.append(("shear stress on the nonmortar body", stress, size,
+                       norm_of([size(each) for each in maps], signed=False), lambda each: each.shear))
     fields.append(("gap, weighted, at nodes", length, lambda each: each.gap,
                    norm_of([each.shown(each.gap) for each in maps], True, small), lambda each: None))
     n, width = len(columns), 4.0
@@ -178,9 +167,7 @@ def contact(views):
         column[0].set_title((f"{view.result.name}: " if len(views) > 1 else "") + each.words, loc="left")
     for row, (what, unit, _, norm, _) in zip(axes, fields):
         figure.colorbar(ScalarMappable(*norm), ax=row, shrink=0.9, label=labelled(what, unit))
-    time = pictures.time_words(views[0].result, views[0].step)
-    figure.suptitle(f"{views[0].result.title}, {time}" if len(views) == 1 else time, x=0.02, ha="left",
-                    fontsize=10.5)
+    pictures.add_heading(figure, views)
     if any(each.marked for _, each in columns):
         arrows = "; arrows: shear stress, pale where nodes stick" if rough else ""
         figure.text(0.02, 0.0, f"dots: nodes of the nonmortar side, filled where there is contact{arrows}",

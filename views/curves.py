@@ -3,7 +3,7 @@ import numpy as np
 
 import columns
 from columns import ROUNDING, labelled
-from pictures import INK, plt, space, time_words
+from pictures import INK, add_heading, plt, space
 from runs import extent
 
 # colour, marker, width
@@ -13,8 +13,7 @@ OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
 
 def contact(views, exact=None):
     """Pressure, with friction the shear stress too, and gap along the line of every interface, all views in
-    one. exact:
-    a pressure to draw beside them."""
+    one. exact: a pressure to draw beside them."""
     if views[0].result.space:
         return space.contact_map.contact(views)
     lines = [each.result.lines(each.run) for each in views]
@@ -28,7 +27,7 @@ def contact(views, exact=None):
         colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
         style = {"color": colour, "marker": marker, "ms": 4.5, "mfc": "white", "lw": width}
         for (above, below), line in zip(axes.T, of_view):
-            above.plot(line.abscissa, line.pressure, label=label_of(each, views), **style)
+            above.plot(line.abscissa, line.pressure, label=label_of(each), **style)
             if line.shear is not None:
                 above.plot(line.abscissa, line.shear, color=colour, lw=width, ls="--")
                 above.plot(line.abscissa[line.slipping], line.shear[line.slipping], color=colour,
@@ -57,9 +56,7 @@ def contact(views, exact=None):
     what = "pressure; dashed: shear stress,\nmarks where it slips" if rough else "contact pressure"
     axes[0, 0].set_ylabel(labelled(what, views[0].result.stress_unit))
     axes[1, 0].set_ylabel(labelled("gap; marks: weighted, at nodes", views[0].result.length_unit))
-    words = time_words(views[0].result, views[0].step)
-    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
-                    fontsize=10.5)
+    add_heading(figure, views)
     if len(views) > 1 or exact is not None:
         add_legend(figure)
     return figure
@@ -84,12 +81,9 @@ def add_legend(figure):
     figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
 
 
-def label_of(view, views):
-    return shown_beside(view.result.name, [each.result.name for each in views])
-
-
-def shown_beside(name, names):
-    """A label; matplotlib leaves out those that begin with a line."""
+def label_of(view):
+    """matplotlib leaves out those that begin with a line."""
+    name = view.result.name
     return (" " if name.startswith("_") else "") + name
 
 
@@ -97,7 +91,7 @@ def draw_path(axes, views, moved, force):
     """Force over displacement, from the state before the first step on."""
     for i, view in enumerate(views):
         x, y = (view.result.history.get(name, np.zeros(0)) for name in (moved, force))
-        draw_curve(axes, i, np.append(0, x), np.append(0, y), label_of(view, views))
+        draw_curve(axes, i, np.append(0, x), np.append(0, y), label_of(view))
     axes.set_title(f"{columns.titled(force)} over displacement", loc="left", fontsize=9)
     axes.set_xlabel(columns.titled(moved))
     axes.grid()
@@ -128,7 +122,7 @@ def history(views):
         for i, (view, time) in enumerate(zip(views, times)):
             values = view.result.history.get(name)
             if values is not None and len(values):
-                draw_curve(each, i, time, values, label_of(view, views))
+                draw_curve(each, i, time, values, label_of(view))
         if columns.bare(name) in ("material_residual", "force_balance") and all(
                 (view.result.history[name] > 0).any() for view in views if name in view.result.history):
             each.set_yscale("log")

@@ -70,12 +70,7 @@ def sizes_of(peaks):
 def read(path):
     """As results.Run without fields. ResultError: no such file."""
     path = Path(path)
-    try:
-        kept = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise results.ResultError(f"{path}: cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:
-        raise results.ResultError(f"{path}: {error}") from error
+    kept = results.read_json(path)
     if not isinstance(kept, dict) or kept.get("by") != BY:
         raise results.ResultError(f"{path}: expected a file of mortier compare --accept")
 

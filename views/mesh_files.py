@@ -101,10 +101,10 @@ def outer_sides(blocks: list[Block]) -> Any:
     begins = np.flatnonzero(np.append(True, (sides[1:] != sides[:-1]).any(axis=1)))
     ends = np.append(begins[1:], len(sides))
     kept = (ends - begins == 1) | (owner[begins] != owner[ends - 1])
-    return around(sides[begins[kept]], rows, blocks)
+    return around(sides[begins[kept]], blocks)
 
 
-def around(chosen: Any, rows: Any, blocks: list[Block]) -> Any:
+def around(chosen: Any, blocks: list[Block]) -> Any:
     """Sorted corners of sides in their order around the side, which matters where there are four."""
     if not len(chosen) or chosen.shape[1] == 2 or (chosen[:, 3] < 0).all():
         return chosen

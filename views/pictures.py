@@ -179,14 +179,29 @@ def mark_extremes(axes, view, scale, field, values):
         words.set_in_layout(False)
 
 
+def circle(axes, place):
+    """About what is to be looked at."""
+    axes.plot(*place, marker="o", ms=16, mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
+
+
+def show_window(axes, window):
+    axes.set_aspect("equal")
+    axes.set_xlim(window[:2])
+    axes.set_ylim(window[2:])
+
+
+def add_heading(figure, views):
+    words = time_words(views[0].result, views[0].step)
+    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
+                    fontsize=10.5)
+
+
 def draw_whole(axes, view, scale, window, field, values, norm, colours):
     draw_bodies(axes, view.run, scale, values, norm, colours)
     draw_as_meshed(axes, view.run)
     if values is not None:
         mark_extremes(axes, view, scale, field, values)
-    axes.set_aspect("equal")
-    axes.set_xlim(window[0], window[1])
-    axes.set_ylim(window[2], window[3])
+    show_window(axes, window)
     unit = view.result.length_unit
     axes.set_xlabel(labelled(view.result.axes[0], unit))
     axes.set_ylabel(labelled(view.result.axes[1], unit))
@@ -195,7 +210,7 @@ def draw_whole(axes, view, scale, window, field, values, norm, colours):
 def whole_window(views, scale, look=None):
     """What holds all bodies, deformed and as meshed, with a margin."""
     if views[0].result.space:
-        return space.window_of(views, scale, look)
+        return space.window_of([each.run for each in views], scale, look or contact_surface.Look())
     points = np.concatenate([p for body in bodies_of(views)
                              for p in (body.points, body.points + scale * body.displacement)])
     low, high = points.min(0), points.max(0)
@@ -314,7 +329,9 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
         draw_whole(axes, each, scale, windows[i], field, value, norm, colours)
         axes.set_title(title_of(each, views, scale, round(13 * width)), loc="left")
         if each.result.failed and (stuck := each.result.stuck(each.run)):
-            mark_failure(axes, each, scale, *stuck[:2])
+            # where the last good state is closest to what the step could not follow
+            body = each.run.bodies[stuck[0]]
+            circle(axes, shapes.placed(body, scale)[body.triangles[stuck[1]]].mean(0))
         for k, line in enumerate(lines[i]):
             below = figure.add_subplot(grid[1 + k, i])
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
@@ -336,14 +353,6 @@ def title_of(view, views, scale, letters):
         if stuck := view.result.stuck(view.run):
             lines.append(f"circle: {stuck[2]}")
     return "\n".join(textwrap.fill(line, letters) for line in lines)
-
-
-def mark_failure(axes, view, scale, name, triangle):
-    """A circle where the last good state is closest to what the step could not follow."""
-    body = view.run.bodies[name]
-    corners = body.triangles[triangle]
-    axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16,
-              mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
 
 
 import space  # noqa: E402: it uses this module

@@ -11,7 +11,8 @@ class Means:
     at a vertex, weighted by area (in space: tetrahedra, volume). `places`: of the corners, n x 3."""
 
     def __init__(self, body):
-        regions = np.unique(body.cells.get("region", np.zeros(len(body.simplices))), return_inverse=True)[1]
+        regions = body.cells.get("region", np.zeros(len(body.simplices)))
+        self.regions, regions = np.unique(regions, return_inverse=True)
         self.places = body.simplices + len(body.points) * regions[:, None]
         self.count = self.places.max() + 1
         self.area = np.repeat(areas(body), self.places.shape[1])

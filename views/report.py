@@ -19,7 +19,7 @@ import columns
 import solids
 import tables
 import three
-from coding import block, packed
+from coding import block, numbers, packed, thinned, without_noise
 from contact_line import boundary_edges
 from ending import shown
 from files import MARK
@@ -35,7 +35,6 @@ IN_SPACE = ("data.js", "solids.js", "colours.js", "charts.js", "controls.js", "t
 # of all kept steps together: beyond that steps are left out, so that the page stays small
 TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less
-NOISE = 1e-9  # of the largest of a kind of field
 HISTORY_ROWS = 1500  # of a longer history some are left out
 SCENE_LETTERS = 200_000
 VIRIDIS = ("440154 482173 433e85 38588c 2d708e 25858e 1e9b8a 2ab07f 52c569 86d549 c2df23 fde725").split()
@@ -61,26 +60,16 @@ def mesh_block(body):
 
 def step_block(result, run, fields, later, many):
     """The arrays of every body, by vertex or by triangle, and of each field its ends."""
-    values = {name: result.values(run, fields[name]) for name in order_of(fields)}
-    for kind in (("ux", "uy"), ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")):
-        without_noise({name: values[name] for name in kind if name in values}, values)
+    values = {name: result.values(run, field) for name, field in fields.items()}
+    bodies = {body: {name: values[name][body] for name in fields} for body in run.bodies}
+    without_noise(list(bodies.values()))
     ranges = {}
-    for name in fields:
-        of_bodies = values[name] if name in values else result.values(run, fields[name])
-        numbers = np.concatenate(list(of_bodies.values()))
-        top = top_of(fields[name], run.bodies, of_bodies)
-        ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
-    return (*block([(values[name][body], digits_of(name, many)) for body in run.bodies
+    for name, field in fields.items():
+        of_bodies = {body: each[name] for body, each in bodies.items()}
+        found = np.concatenate(list(of_bodies.values()))
+        ranges[name] = numbers((found.min(), found.max(), top_of(field, run.bodies, of_bodies)))
+    return (*block([(each[name], digits_of(name, many)) for each in bodies.values()
                     for name in order_of(fields)], later), ranges)
-
-
-def without_noise(kind, values):
-    """A component below the rounding of the others of its kind becomes 0."""
-    largest = {name: max(np.abs(each).max(initial=0) for each in of.values()) for name, of in kind.items()}
-    top = max(largest.values(), default=0)
-    for name, of in kind.items():
-        if largest[name] < NOISE * top:
-            values[name] = {body: np.zeros_like(each) for body, each in of.items()}
 
 
 def order_of(fields):
@@ -88,29 +77,27 @@ def order_of(fields):
     return [name for name in fields if name not in ("u", "region", "von_mises")]
 
 
-def numbers(values, digits=6):
-    return [float(f"{value:.{digits}g}") for value in values]
-
-
 def run_data(result, share):
     """What the page knows of a run; share: of what fits into it."""
-    bodies = solids.run_data(result, share) if result.space else plane_data(result, share)
+    run, fields, parts = solids.run_data(result, share) if result.space else plane_data(result, share)
+    size = extent(run.bodies.values())
+    listed = [{"name": name, "words": field.words, "unit": field.unit, "signed": field.signed,
+               "vertex": result.space or field.by_vertex, "contact": field.of_contact}
+              for name, field in fields.items()]
+    listed.sort(key=lambda each: not each["contact"])  # contact is seen first
     return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
             "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
-            "keptSteps": len(result.kept), "history": history_of(result, bodies["extent"]), **bodies,
-            **words_of(result)}
+            "keptSteps": len(result.kept), "history": history_of(result, size), "extent": size,
+            "scale": natural_scale(run.bodies.values()), "fields": listed, **parts, **words_of(result)}
 
 
 def plane_data(result, share):
-    """Bodies and contact lines of a run in the plane; share: of TRIANGLES."""
-    kept = result.kept
-    first = result.at(kept[-1][0])
+    """The run at the last step, its fields, and what the page knows of its bodies and contact lines; share:
+    of TRIANGLES."""
+    first = result.at(result.kept[-1][0])
     triangles = sum(len(body.triangles) for body in first.bodies.values())
-    most = max(1, int(TRIANGLES * share) // triangles)
-    if len(kept) > most:
-        kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
-    fields, size = result.fields(first), extent(first.bodies.values())
-    bodies = []
+    kept = thinned(result.kept, TRIANGLES * share / triangles)
+    fields, bodies = result.fields(first), []
     for name, body in first.bodies.items():
         mesh, edges = mesh_block(body)
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
@@ -136,11 +123,8 @@ def plane_data(result, share):
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
     for backwards in (steps, ranges, *(line["steps"] for line in lines)):
         backwards.reverse()
-    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
-               "signed": field.signed}
-              for name, field in fields.items()]
-    return {"bodies": bodies, "fields": listed, "order": order_of(fields), "steps": steps, "ranges": ranges,
-            "lines": lines, "scale": natural_scale(first.bodies.values()), "extent": size}
+    return first, fields, {"bodies": bodies, "order": order_of(fields), "steps": steps, "ranges": ranges,
+                           "lines": lines}
 
 
 def history_of(result, size):

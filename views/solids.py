@@ -11,15 +11,15 @@ import html
 import numpy as np
 
 import contact_surface
-from coding import block
+from coding import NOISE, block, numbers, thinned, without_noise
 from contact_line import keys_of
 from contact_surface import surface_of
+from recovery import Means
 from results import von_mises
-from runs import IN_SPACE, areas, extent, natural_scale, top
+from runs import IN_SPACE, top
 
 NUMBERS = 1_100_000  # of all steps and meshes together, so that the page stays small
 MANY = 200_000  # of a step: beyond that numbers have a digit less
-NOISE = 1e-9  # of the largest of a kind of field
 DOTS = 90  # on an inch of a picture
 CURVE_BITS = 10  # of each coordinate in the order of the vertices
 CONTACT = 8  # in the marks of a triangle, behind one bit for each sharp side
@@ -30,24 +30,21 @@ class Mesh:
 
     def __init__(self, body, interior):
         surface, n = surface_of(body), len(body.points)
-        kinds = body.cells.get("region", np.zeros(len(body.tetrahedra)))
-        kinds, regions = np.unique(kinds, return_inverse=True)
-        places = body.tetrahedra + n * regions[:, None]
+        self.means = Means(body)
+        places = self.means.places
         sides = places[surface.owner[:, None], surface.local]
         used = np.unique(places if interior else sides)
         used = used[np.argsort(along_curve(body.points[used % n]), kind="stable")]
-        number = np.full(n * (regions.max() + 1), len(used))
+        number = np.full(self.means.count, len(used))  # one too large: not in the page
         number[used] = np.arange(len(used))
-        self.body, self.nodes = body, used % n
-        self.places = number[places]  # one too large: not in the page
-        self.region, self.volumes = kinds[used // n], np.repeat(areas(body), 4)
-        self.weight = np.bincount(self.places.ravel(), self.volumes, len(used) + 1)[:-1]
-        self.near = np.zeros(len(used) + 1, bool)
+        self.body, self.nodes, self.used = body, used % n, used
+        self.region, self.weight = self.means.regions[used // n], self.means.weight[used]
+        near = np.zeros(self.means.count, bool)
         if body.near is not None:
-            self.near[self.places[body.near]] = True
-        self.near = self.near[:-1]
+            near[places[body.near]] = True
+        self.near = near[used]
         self.set_triangles(number[sides], surface)
-        self.tetrahedra = np.sort(self.places, axis=1) if interior else np.zeros((0, 4), int)
+        self.tetrahedra = np.sort(number[places], axis=1) if interior else np.zeros((0, 4), int)
         self.tetrahedra = self.tetrahedra[np.lexsort(self.tetrahedra.T[::-1])]
 
     def set_triangles(self, triangles, surface):
@@ -69,9 +66,8 @@ class Mesh:
             self.ends, self.middles = ends[first], between[first]
 
     def recovered(self, values):
-        """By vertex of the page, of values by tetrahedron: their mean around it, weighted by volume."""
-        summed = np.bincount(self.places.ravel(), np.repeat(values, 4) * self.volumes, len(self.weight) + 1)
-        return summed[:-1] / np.maximum(self.weight, 1e-300)
+        """By vertex of the page, of values by tetrahedron: their mean around it."""
+        return self.means(values)[self.used]
 
     def at_nodes(self, values):
         return values[self.nodes]
@@ -133,12 +129,7 @@ def digits_of(name, many):
 def step_block(meshes, fields, touching, later, many):
     """The arrays of every body in the order of `order_of`; and the ends of all fields."""
     values = {name: values_of(mesh, touching[name], fields) for name, mesh in meshes.items()}
-    for kind in ([f"s{c}" for c in IN_SPACE], [f"e{c}" for c in IN_SPACE], ["ux", "uy", "uz"]):
-        largest = {name: max(np.abs(each[name]).max(initial=0) for each in values.values()) for name in kind}
-        for name, own in largest.items():
-            if own < NOISE * max(largest.values()):
-                for each in values.values():
-                    each[name] = np.zeros_like(each[name])
+    without_noise(list(values.values()))
     return (*block([(of_body[name], digits_of(name, many)) for of_body in values.values()
                     for name in order_of(fields)], later), ranges_of(meshes, fields, values))
 
@@ -164,13 +155,14 @@ def ranges_of(meshes, fields, values):
         else:
             each = np.concatenate([of[name] for of in values.values()])
         ends = (each.min(initial=0), each.max(initial=0)) if field.of_contact else (each.min(), each.max())
-        found[name] = [float(f"{value:.6g}") for value in (*ends, top(field, each, weights, near))]
+        found[name] = numbers((*ends, top(field, each, weights, near)))
     return found
 
 
 def run_data(result, share):
-    """What the page knows of the bodies of a run, and `still`, HTML; share: of NUMBERS."""
-    kept, last = result.kept, result.at(result.kept[-1][0])
+    """The run at the last step, its fields, what the page knows of its bodies, and `still`, HTML; share: of
+    NUMBERS."""
+    last = result.at(result.kept[-1][0])
     contact_surface.attach(last, result.interfaces)
     fields = result.fields(last)
     room = NUMBERS * share
@@ -180,9 +172,7 @@ def run_data(result, share):
     meshes = {name: Mesh(body, interior) for name, body in last.bodies.items()}
     of_meshes = sum(3 * len(mesh.tetrahedra) + 3 * len(mesh.nodes) for mesh in meshes.values())
     of_step = sum(9 * len(mesh.nodes) + 3 * len(mesh.middles) for mesh in meshes.values())
-    most = max(1, int((room - of_meshes) / of_step))
-    if len(kept) > most:
-        kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
+    kept = thinned(result.kept, (room - of_meshes) / of_step)
     picture = still(result)  # now that the step is read
     bodies, touching = [], {}
     for name, mesh in meshes.items():
@@ -200,13 +190,9 @@ def run_data(result, share):
         arrays, later, ends = step_block(meshes, fields, touching, later, of_step > MANY)
         steps.append({"step": step, "time": time, **arrays})
         ranges.append(ends)
-    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": True, "signed": field.signed,
-               "contact": field.of_contact} for name, field in fields.items()]
-    listed.sort(key=lambda each: not each["contact"])  # contact is seen first
-    return {"keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
-            "steps": steps[::-1], "ranges": ranges[::-1], "lines": [],
-            "scale": natural_scale(last.bodies.values()), "extent": extent(last.bodies.values()),
-            "views": views_of(result, last), "interior": interior, "still": picture}
+    return last, fields, {"bodies": bodies, "order": order_of(fields), "steps": steps[::-1],
+                          "ranges": ranges[::-1], "lines": [], "views": views_of(result, last),
+                          "interior": interior, "still": picture}
 
 
 def still(result):

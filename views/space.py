@@ -11,7 +11,7 @@ import surfaces
 from columns import ROUNDING, labelled
 from contact_surface import Look, surface_of, touching
 from pictures import INK, MUTED, bodies_of, plt
-from runs import natural_scale
+from runs import extent, natural_scale
 from shapes import placed
 from surfaces import Buffer, Seen, camera, painted, show
 
@@ -24,24 +24,23 @@ def eye(look):
     return camera(*look.angles)
 
 
-def window_of(views, scale, look):
+def window_of(runs, scale, look):
     """What holds all bodies as the camera has them, or the contact that is looked at, with a margin for the
     axes."""
-    look = look or Look()
-    points = np.concatenate([p for each in views for p in points_of(each, scale, look)])
+    points = np.concatenate([p for run in runs for p in points_of(run, scale, look)])
     box = np.array([points.min(0), points.max(0)])
     corners = np.stack(np.meshgrid(*box.T), -1).reshape(-1, 3) @ eye(look)[:2].T
     low, high = corners.min(0), corners.max(0)
     margin = 0.12 * (high - low).max()
     if look.nodes is not None:
-        size = np.ptp(np.concatenate([body.points for body in bodies_of(views)]), axis=0).max()
+        size = extent([body for run in runs for body in run.bodies.values()])
         margin = AROUND * max((high - low).max(), LEAST * size)
     return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + (1 if look.nodes is not None
                                                                           else 0.2 / 0.12) * margin
 
 
-def points_of(view, scale, look):
-    for name, body in view.run.bodies.items():
+def points_of(run, scale, look):
+    for name, body in run.bodies.items():
         if look.nodes is None:
             yield from (body.points, placed(body, scale))
         elif name == look.body:
@@ -80,19 +79,19 @@ def draw_bodies(axes, run, look, scale, window, width, values=None, norm=None, c
         image[..., 3] *= GLASS
         above = buffer.image()
         image = np.where(above[..., 3:] > 0, above, image)
-        for name, body in run.bodies.items():
-            if name not in look.hidden:
-                lines = surface_of(body).outline(placed(body, scale) @ turned.T)[..., :2]
-                axes.add_collection(LineCollection(lines, colors=INK, linewidths=0.5, alpha=0.5, zorder=2.5),
-                                    autolim=False)
+        draw_outlines(axes, run, look, scale, colors=INK, linewidths=0.5, alpha=0.5, zorder=2.5)
     show(axes, image, window)
     if scale and any(body.displacement.any() for body in run.bodies.values()):
-        for name, body in run.bodies.items():  # as meshed, where deformed bodies do not hide it
-            if name not in look.hidden:
-                lines = surface_of(body).outline(body.points @ turned.T)[..., :2]
-                axes.add_collection(LineCollection(lines, colors=MUTED, linewidths=0.6, zorder=1,
-                                                   linestyles=[(0, (4, 3))]), autolim=False)
+        # as meshed, where deformed bodies do not hide it
+        draw_outlines(axes, run, look, 0.0, colors=MUTED, linewidths=0.6, zorder=1, linestyles=[(0, (4, 3))])
     return buffer
+
+
+def draw_outlines(axes, run, look, scale, **style):
+    for name, body in run.bodies.items():
+        if name not in look.hidden:
+            lines = surface_of(body).outline(placed(body, scale) @ eye(look)[:2].T)
+            axes.add_collection(LineCollection(lines, **style), autolim=False)
 
 
 def contact_seen(body, turned, scale, values, norm, colours):
@@ -180,7 +179,7 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
     scale = scale if scale is not None else natural_scale(bodies_of(views))
     alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)
     columns = [views if alike else [each] for each in views]
-    windows = [window or window_of(of, scale, look) for of in columns]
+    windows = [window or pictures.whole_window(of, scale, look) for of in columns]
     pictures.require_drawable(views, scale, windows[0])
     maps = [[contact_map.Map(each, k) for k in contact_map.interfaces_of(each)[:2]] if panels else []
             for each in views]
@@ -207,7 +206,9 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
             mark_largest(axes, each, look, scale, field, value, buffer, windows[i], window)
         axes.set_title(pictures.title_of(each, views, scale, round(12 * width)), loc="left")
         if each.result.failed and (stuck := each.result.stuck(each.run)):
-            mark_failure(axes, each, look, scale, *stuck[:2])
+            body = each.run.bodies[stuck[0]]
+            at = placed(body, scale)[body.tetrahedra[stuck[1]]].mean(0)
+            pictures.circle(axes, eye(look)[:2] @ at)
         for k, of_interface in enumerate(maps[i]):
             below.append(figure.add_subplot(grid[1 + k, i]))
             of_interface.draw(below[-1], of_interface.pressure, *pressures, 0.5 * width)
@@ -221,22 +222,10 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
     return figure
 
 
-def mark_failure(axes, view, look, scale, name, element):
-    body = view.run.bodies[name]
-    at = placed(body, scale)[body.tetrahedra[element]].mean(0) @ eye(look).T
-    axes.plot(*at[:2], marker="o", ms=16, mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
-
-
 def draw_difference(axes, run, values, norm, colours, at):
     """Of two results on one mesh, on the bodies as meshed; a circle where it is largest, which may be
     inside."""
-    bodies = list(run.bodies.values())
-    points = np.concatenate([body.points for body in bodies])
-    corners = np.stack(np.meshgrid(*np.array([points.min(0), points.max(0)]).T), -1).reshape(-1, 3)
-    turned = eye(Look())
-    low, high = (corners @ turned[:2].T).min(0), (corners @ turned[:2].T).max(0)
-    margin = 0.12 * (high - low).max()
-    window = low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
-    draw_bodies(axes, run, Look(), 0.0, window, 5.0, values, norm, colours)
-    axes.plot(*(at @ turned[:2].T), marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, zorder=9)
+    look = Look()
+    draw_bodies(axes, run, look, 0.0, window_of([run], 0.0, look), 5.0, values, norm, colours)
+    pictures.circle(axes, eye(look)[:2] @ at)
     axes.set_axis_off()

@@ -58,16 +58,15 @@ class Surface:
         cosine = ((summed**2).sum(1) - 2) / 2  # of two sides
         return ((count != 2) | (cosine < SHARP))[number].reshape(-1, 3)
 
-    def triangles(self, placed, chosen=slice(None)):
+    def triangles(self, placed, chosen=slice(None), straight=False):
         """Of the sides: corners n x 3 x 3, the side that each is of, the barycentric coordinates of its
         corners there, and of its sides 0: within an element, 1: between elements, 2: an edge of the
         surface."""
         numbers = np.arange(len(self.nodes))[chosen]
         corners, edges = placed[self.nodes[numbers]], 1 + self.sharp[numbers].astype(int)
-        if self.middles is None:
+        if self.middles is None or straight:
             return corners, numbers, np.broadcast_to(np.eye(3), corners.shape), edges
-        at = placed[self.middles[numbers]]
-        nodes = np.stack([corners[:, 0], corners[:, 1], corners[:, 2], at[:, 0], at[:, 1], at[:, 2]], 1)
+        nodes = np.concatenate([corners, placed[self.middles[numbers]]], 1)
         split = nodes[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3, 3)
         return (split, np.repeat(numbers, 4), np.tile(QUARTERS, (len(numbers), 1, 1)),
                 (edges[:, None] * ALONG).reshape(-1, 3))
@@ -135,7 +134,7 @@ class Buffer:
     def barycentric(self, triangle, x, y):
         """Of the middles of pixels, 3 x n."""
         found = []
-        for i, (along, across) in enumerate(self.gradients):
+        for along, across in self.gradients:
             start = 1 / 3 - along * self.corners[:, :, 0].mean(1) - across * self.corners[:, :, 1].mean(1)
             found.append(start[triangle] + along[triangle] * (x + 0.5) + across[triangle] * (y + 0.5))
         return np.array(found)

@@ -57,17 +57,15 @@ def pairs(result):
     force, energy, area = (result.unit(name) for name in ("contact_force", "elastic_energy", "penetration"))
     final, peaks, accuracy = (part(summary, key) for key in ("final", "peaks", "accuracy"))
 
-    def low_high(name, unit):
-        ends = [final.get(f"{name}_min"), final.get(f"{name}_max")]
-        found = [number(end, 6) for end in ends]
-        return None if None in found else f"{found[0]} to {number(ends[1], 6, unit)}"
+    def low_high(low, high, unit):
+        found = [number(low), number(high, 6, unit)]
+        return None if None in found else " to ".join(found)
 
     def displacement(axis):
         ends = [final.get(key) for key in ("displacement_min", "displacement_max")]
         if not all(isinstance(end, list) and len(end) == len(result.axes) for end in ends):
             return None
-        found = [number(end[axis], 6) for end in ends]
-        return None if None in found else f"{found[0]} to {number(ends[1][axis], 6, length)}"
+        return low_high(*(end[axis] for end in ends), length)
 
     run = [("problem", PLANES.get(str(summary.get("plane")))),
            ("contact", summary.get("contact")),
@@ -78,7 +76,7 @@ def pairs(result):
            ("Newton iterations", number(summary.get("newton_iterations"), 9)),
            ("steps repeated for their error", number(summary.get("rejected_attempts")))]
     end = [("time", number(final.get("time"), 6, time)),
-           ("von Mises stress", low_high("von_mises", stress)),
+           ("von Mises stress", low_high(final.get("von_mises_min"), final.get("von_mises_max"), stress)),
            *((f"displacement {axis}", displacement(i)) for i, axis in enumerate(result.axes)),
            ("contact force", number(final.get("contact_force"), 6, force)),
            ("nodes in contact", number(final.get("active_nodes"))),

@@ -1,7 +1,7 @@
 """Meshes of arrays and of meshio, and steps as meshes of meshio."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import meshio
 
 REFERENCES = ("gmsh:physical", "medit:ref")
+DIMENSIONS = {"line": 1, "triangle": 2, "tetra": 3}
 
 
 class Mesh(NamedTuple):
@@ -34,8 +35,6 @@ def plain(mesh: Any, of: str) -> tuple[tuple[Any, ...], Names]:
     """A mesh as mortier writes it (counterclockwise, two columns, numbers), and the names of its numbers.
     InputError: points at several z."""
     names: Names = []
-    if hasattr(mesh, "cells_dict"):
-        mesh, names = of_meshio(mesh, of)
     arrays: list[Any] = [None if each is None else np.asarray(each) for each in Mesh(*mesh)]
     points, triangles, edges, labels, regions = arrays
     if points.ndim == 2 and points.shape[1] == 3:
@@ -69,61 +68,38 @@ def numbered(values: Any, of: str) -> tuple[Any, Names]:
     return numbers + 1, [(of, str(word), number + 1) for number, word in enumerate(words)]
 
 
-def of_meshio(mesh: meshio.Mesh, of: str) -> tuple[Mesh, Names]:
-    """Its triangles and the lines that have a label. InputError: no triangles."""
-    triangles, regions = marked(mesh, "triangle")
-    edges, labels = marked(mesh, "line")
-    if not len(triangles):
-        kinds = ", ".join(sorted({block.type for block in mesh.cells}))
-        raise InputError(f"{of}: cells {kinds or 'none'}, expected triangles")
-    names = [("label" if dimension == 1 else "region", name, int(number))
-             for name, (number, dimension) in mesh.field_data.items() if dimension in (1, 2)]
-    for name, blocks in mesh.cell_sets_dict.items():
-        for kind, cells in blocks.items():
-            if name.startswith("gmsh:") or kind[:4] not in ("line", "tria") or \
-                    any(name == each for _, each, _ in names):
-                continue
-            values = labels if kind[:4] == "line" else regions
-            values[cells] = number = max(values.max(initial=0), 0) + 1
-            names.append(("label" if kind[:4] == "line" else "region", name, int(number)))
-    known = labels > 0
-    return Mesh(mesh.points, triangles, edges[known], labels[known], regions), names
+def write_meshio(path: Path, mesh: meshio.Mesh, of: str, region: Any = None) -> None:
+    """As a file of Gmsh, with references of cells and cell sets as physical groups. InputError: no triangles
+    or tetrahedra, or none in the region."""
+    import meshio
 
-
-def marked(mesh: meshio.Mesh, kind: str) -> tuple[Any, Any]:
-    """Corners of the cells of a kind, linear or quadratic, and their references (0 without)."""
-    corners = 3 if kind == "triangle" else 2
-    kinds = (kind, kind + ("6" if kind == "triangle" else "3"))
-    chosen = [i for i, block in enumerate(mesh.cells) if block.type in kinds]
+    kinds = [block.type.rstrip("0123456789") for block in mesh.cells]
+    chosen = [i for i, kind in enumerate(kinds) if kind in DIMENSIONS]
+    dimension = {i: DIMENSIONS[kinds[i]] for i in chosen}
+    whole = max(dimension.values(), default=0)
+    if whole < 2:
+        raise InputError(f"{of}: cells {', '.join(sorted(set(kinds))) or 'none'}, expected triangles or "
+                         "tetrahedra")
     name = next((each for each in REFERENCES if each in mesh.cell_data), None)
-    cells = [mesh.cells[i].data[:, :corners] for i in chosen]
-    values = [np.asarray(mesh.cell_data[name][i], int) if name else np.zeros(len(mesh.cells[i].data), int)
-              for i in chosen]
-    return (np.concatenate(cells), np.concatenate(values)) if cells else (np.zeros((0, corners), int),
-                                                                          np.zeros(0, int))
-
-
-def part(mesh: meshio.Mesh, region: int | str | None) -> Any:
-    """The triangles of one region, by number or name, and the labelled lines along them."""
-    whole, names = of_meshio(mesh, "mesh")
-    if region is None:
-        return mesh
-    number = dict(((each, k) for of, each, k in names if of == "region")).get(str(region), region)
-    chosen = np.array([each == number for each in np.asarray(whole.regions).tolist()])
-    if not chosen.any():
-        known = [each for of, each, _ in names if of == "region"] or sorted(set(np.asarray(whole.regions)))
-        raise InputError(f"region {region}: expected one of {', '.join(map(str, known))}")
-    triangles = np.asarray(whole.triangles)[chosen]
-    sides = {tuple(side) for side in sides_of(triangles)}
-    along = [tuple(sorted(edge)) in sides for edge in np.asarray(whole.edges).tolist()]
-    words = {k: each for of, each, k in names if of == "label"}
-    labels = [words.get(k, k) for k in np.asarray(whole.labels)[along].tolist()]
-    return Mesh(whole.points, triangles, np.asarray(whole.edges)[along], labels)
-
-
-def sides_of(triangles: Any) -> Iterator[list[int]]:
-    for k in range(3):
-        yield from np.sort(triangles[:, [k, (k + 1) % 3]], axis=1).tolist()
+    groups = {i: np.array(mesh.cell_data[name][i] if name else np.zeros(len(mesh.cells[i].data)), int)
+              for i in chosen}
+    names = {each: (int(number), int(of_group)) for each, (number, of_group) in mesh.field_data.items()}
+    for each, sets in mesh.cell_sets.items():
+        for i in chosen if not each.startswith("gmsh:") else ():
+            if sets[i] is not None and len(sets[i]):
+                taken = [groups[k].max(initial=0) for k in chosen if dimension[k] == dimension[i]]
+                groups[i][sets[i]] = names.setdefault(each, (int(max(taken)) + 1, dimension[i]))[0]
+    numbers = {str(number) for i in chosen if dimension[i] == whole for number in groups[i]}
+    known = [each for each, (_, of_group) in names.items() if of_group == whole] or sorted(numbers)
+    if region is not None and str(region) not in {*known, *numbers}:
+        raise InputError(f"region {region}: expected one of {', '.join(known)}")
+    points = np.zeros((len(mesh.points), 3))
+    points[:, :np.shape(mesh.points)[1]] = mesh.points
+    marks = [groups[i] for i in chosen]
+    meshio.write(path, meshio.Mesh(points, [mesh.cells[i] for i in chosen],
+                                   cell_data={"gmsh:physical": marks, "gmsh:geometrical": marks},
+                                   field_data={each: np.array(pair) for each, pair in names.items()}),
+                 file_format="gmsh22", binary=False)
 
 
 def cells_of(step: _core.Step, name: str) -> dict[str, Any]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 from mortier import _core, toml
 from mortier.errors import Error, InputError, ResultMissing
-from mortier.meshes import Mesh, part, plain
+from mortier.meshes import Mesh, plain, write_meshio
 from mortier.run import Run, finished
 
 Settings = Mapping[str, Any] | Sequence[str] | None
@@ -51,18 +51,14 @@ class Scene:
         folder = Path(tempfile.mkdtemp(prefix="mortier-"))
         self._folder = str(folder)
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
-        bodies = scene.get("body", [])
-        bodies = [dict(body) for body in ([bodies] if isinstance(bodies, Mapping) else bodies)]
+        bodies = bodies_of(scene)
         known = [body.get("name") for body in bodies]
         for name, mesh in (meshes or {}).items():
             if name not in known:
                 raise InputError(f"meshes: no body {name}, expected one of {', '.join(map(str, known))}")
-            path = folder / f"mesh-{known.index(name)}.mesh"
-            arrays, names = plain(mesh, f"mesh of {name}")
-            _core.write_mesh(str(path), f"mesh of {name}", *arrays)
-            with path.open("a", encoding="utf-8") as file:
-                file.writelines(f"# {of} {number} = {each}\n" for of, each, number in names)
-            bodies[known.index(name)]["mesh"] = path.name
+            body = bodies[known.index(name)]
+            body["mesh"] = self._written(folder / f"mesh-{known.index(name)}", mesh, f"mesh of {name}",
+                                         body.get("mesh"))
         for body in bodies:
             if body.get("name") not in (meshes or {}):
                 body["mesh"] = absolute(body.get("mesh"))
@@ -70,19 +66,29 @@ class Scene:
         path.write_text(toml.document({**scene, "body": bodies}), encoding="utf-8")
         self._read(str(path), set)
 
+    @staticmethod
+    def _written(path: Path, mesh: Any, of: str, asked: Any) -> Any:
+        """The mesh of a body in a file, and what its table `mesh` says of it."""
+        if hasattr(mesh, "cells_dict"):
+            table = {key: each for key, each in dict(asked or {}).items() if key == "region"}
+            write_meshio(path.with_suffix(".msh"), mesh, of, table.get("region"))
+            return {**table, "file": path.with_suffix(".msh").name}
+        arrays, names = plain(mesh, of)
+        path = path.with_suffix(".mesh")
+        _core.write_mesh(str(path), of, *arrays)
+        with path.open("a", encoding="utf-8") as file:
+            file.writelines(f"# {kind} {number} = {each}\n" for kind, each, number in names)
+        return path.name
+
     @classmethod
     def from_meshio(cls, scene: Mapping[str, Any], meshes: Mapping[str, meshio.Mesh] | meshio.Mesh,
                     set: Settings = None) -> Scene:
         """A scene whose bodies have meshes of meshio: triangles, and lines with labels (physical groups of
-        Gmsh, references of Medit, cell sets). One mesh alone is that of all bodies, each of which names its
-        `region`.
+        Gmsh, references of Medit, cell sets); in space tetrahedra and triangles. One mesh alone is that of
+        all bodies, each of which names its `region`.
         """
         if not isinstance(meshes, Mapping):
-            bodies = scene.get("body", [])
-            bodies = [dict(each) for each in ([bodies] if isinstance(bodies, Mapping) else bodies)]
-            meshes = {each.get("name", ""): part(meshes, each.pop("mesh", {}).get("region"))
-                      for each in bodies}
-            scene = {**scene, "body": bodies}
+            meshes = {each.get("name", ""): meshes for each in bodies_of(scene)}
         return cls(scene, meshes, set)
 
     @classmethod
@@ -90,8 +96,7 @@ class Scene:
         """A scene on the meshed model of the running gmsh (its Python module), with its physical groups: each
         body without `mesh` is the region of its name, or the one that `mesh = {"region": ...}` names."""
         gmsh = importlib.import_module("gmsh")
-        bodies = scene.get("body", [])
-        bodies = [dict(each) for each in ([bodies] if isinstance(bodies, Mapping) else bodies)]
+        bodies = bodies_of(scene)
         folder = tempfile.mkdtemp(prefix="mortier-")
         try:
             path = os.path.join(folder, "model.msh")
@@ -177,6 +182,11 @@ def load(path: str | os.PathLike[str], set: Settings = None) -> Scene:
 def check(path: str | os.PathLike[str], set: Settings = None) -> list[Fault]:
     """What is wrong or doubtful in a scene, which need not be one that can be read."""
     return [Fault(**each) for each in _core.check(os.fspath(path), toml.settings(set))]
+
+
+def bodies_of(scene: Mapping[str, Any]) -> list[dict[str, Any]]:
+    bodies = scene.get("body", [])
+    return [dict(body) for body in ([bodies] if isinstance(bodies, Mapping) else bodies)]
 
 
 def absolute(mesh: Any) -> Any:

@@ -111,6 +111,16 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(mortier.InputError, "mesh of block: cells line, expected triangles"):
             mortier.Scene.from_meshio(scene(), {"block": lines})
 
+    def test_a_mesh_of_meshio_in_space(self):
+        cells = [("tetra", [[0, 1, 2, 3]]), ("triangle", [[0, 1, 2], [1, 2, 3]])]
+        mesh = meshio.Mesh(np.eye(4, 3, -1), cells,
+                           cell_data={"medit:ref": [np.array([4]), np.array([1, 3])]})
+        asked = {**scene(mesh={"region": 4}), "dimension": 3}
+        asked["body"][0]["boundary"] = [{"label": 1, "ux": 0, "uy": 0, "uz": 0}, {"label": 3, "tz": "-1*t"}]
+        stiffness = 1e5 * 0.7 / (1.3 * 0.4) / 6  # of the one node that is not held
+        self.assertAlmostEqual(self.least(mortier.Scene.from_meshio(asked, mesh)),
+                               -np.sqrt(3) / 6 / stiffness, 15)
+
     def test_the_model_of_a_running_gmsh(self):
         """gmsh.write() is what is asked of it."""
         text = ('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 "foot"\n1 3 "head"\n'

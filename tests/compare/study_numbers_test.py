@@ -183,7 +183,7 @@ class Norms(unittest.TestCase):
             np.testing.assert_allclose(Expression(text)(x, 0 * x, 2.0), np.broadcast_to(value, 2),
                                        err_msg=text)
         for text in ("x.real", "[1]", "lambda: 1", "open('f')", "x[0]", "'a'", "x if x else y", "z", "sin",
-                     "1 +", ")("):
+                     "1 +", ")(", "x % 2", "not x", "x is y", "max(*x)"):
             with self.assertRaises(ValueError, msg=text):
                 Expression(text)(x, x, 0.0)
 

@@ -39,7 +39,7 @@ function paint(panel, range) {
   if (panel.key !== key) {
     panel.key = key;
     panel.shown = run.bodies.map((_, b) => shownValues(run, step, b));
-    panel.extremes = extremes(panel.shown);
+    panel.extremes = extremes(panel.shown.map(({flat, corner}) => flat || corner));
   }
   let rigid = false;  // tools have no stress
   const colour = value => rigid ? 0xff9c9c9c : range.table[Math.max(
@@ -163,20 +163,16 @@ function paint(panel, range) {
   drawLegend(panel, range);
 }
 function markExtremes(panel, range) {  // where the field is largest, and smallest where it has two signs
-  const {run, context, ratio} = panel, field = fieldOf(run, now.field);
-  const marked = [["largest", panel.extremes[0]], ...(range.signed ? [["smallest", panel.extremes[1]]] : [])];
-  const [most, least] = panel.extremes;
-  const rounding = most ? 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value)) : 0;
-  if (["viscoplastic", "region"].includes(field.name) || !most || !(most.value - least.value > rounding)) {
-    panel.most.textContent = "";
-    return;
-  }
-  const style = getComputedStyle(document.body);
+  const {run, context, ratio} = panel, style = getComputedStyle(document.body);
+  const at = ({b, i}, values) => {
+    const {corners} = run.bodies[b];
+    if (panel.shown[b].corner) return values[corners[i]];
+    return (values[corners[3 * i]] + values[corners[3 * i + 1]] + values[corners[3 * i + 2]]) / 3;
+  };
+  const place = each => [at(each, run.bodies[each.b].x), at(each, run.bodies[each.b].y)];
   context.font = `${12 * ratio}px system-ui, sans-serif`;
-  panel.most.textContent = marked.map(([word, {value, b, t, corner}]) => {
-    const body = run.bodies[b], v = [0, 1, 2].map(c => body.corners[3 * t + c]),
-          mean = of => corner < 0 ? (of[v[0]] + of[v[1]] + of[v[2]]) / 3 : of[v[corner]];
-    const x = mean(panel.px[b]), y = mean(panel.py[b]), text = short(value, 4);
+  for (const each of tellExtremes(panel, range, panel.extremes, place)) {
+    const x = at(each, panel.px[each.b]), y = at(each, panel.py[each.b]), text = short(each.value, 4);
     context.beginPath();
     context.arc(x, y, 4 * ratio, 0, 2 * Math.PI);
     const right = x + 8 * ratio + context.measureText(text).width < context.canvas.width;
@@ -187,9 +183,7 @@ function markExtremes(panel, range) {  // where the field is largest, and smalle
     }
     context.lineWidth = 3 * ratio; context.strokeStyle = style.backgroundColor; context.strokeText(...to);
     context.fillStyle = style.color; context.fillText(...to);
-    return `${word} ${of(text, field.unit)} in ${body.name} at (${short(mean(body.x), 4)}, ${
-        short(mean(body.y), 4)})`;
-  }).join("; ");
+  }
 }
 function hover(panel, x, y) {  // in CSS pixels of the canvas
   const {run, canvas, owner, ratio} = panel, i = Math.floor(x * ratio), j = Math.floor(y * ratio);

@@ -31,14 +31,8 @@ function extent(values, small) {  // of an axis, with a margin
   const pad = 0.06 * (high - low);
   return [low - pad, high + pad];
 }
-function chart(box, {
-  title,
-  xWords,
-  series,
-  small = 0,
-  now: at,
-  id
-}) {  // series: {x, y, to, run, marks, line, fill, name}; to: the other end of a band
+// series: {x, y, to, run, marks, line, fill, name}; to: the other end of a band
+function chart(box, {title, xWords, series, small = 0, now: at, id}) {
   const W = widthIn(box), H = 230, R = 12, T = 26, B = 40;
   const xs = series.flatMap(s => [Math.min(...s.x), Math.max(...s.x)]);
   const ys = series.flatMap(s => [s.y, s.to || s.y].flatMap(y => [Math.min(...y), Math.max(...y)]));

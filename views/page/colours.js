@@ -46,6 +46,12 @@ for (const run of runs) {
   groups.get(names).runs.push(run);
   run.group = groups.get(names);
 }
+const WAYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+const pointIn = (canvas, event) => {  // in CSS pixels
+  const area = canvas.getBoundingClientRect();
+  return [event.clientX - area.left, event.clientY - area.top];
+};
+const showAll = (...all) => { all.forEach(group => { group.fit = true; }); redraw(); };
 const recoverable = name => /^[se]\d\d$|^von_mises$/.test(name);
 function drawLegend(panel, range) {
   const strip = panel.bar.getContext("2d"), shades = strip.createImageData(SHADES, 1);
@@ -67,4 +73,23 @@ function drawLegend(panel, range) {
     mark.style.transform = `translateX(${part < 8 ? 0 : part > 92 ? -100 : -50}%)`;
     return mark;
   }));
+}
+function extremes(bodies) {  // the largest of their numbers, and the smallest: value, body, index
+  const found = [null, null];
+  bodies.forEach((values, b) => values.forEach((value, i) => {
+    if (!(value <= found[0]?.value) && value === value) found[0] = {value, b, i};
+    if (!(value >= found[1]?.value) && value === value) found[1] = {value, b, i};
+  }));
+  return found;
+}
+function tellExtremes({run, most: box}, range, [most, least], placeOf, where = "") {  // gives what it tells
+  const field = fieldOf(run, now.field);
+  const told = most && !["viscoplastic", "region"].includes(field.name) &&
+      most.value - least.value > 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value));
+  const ends = !told ? [] : range.signed ? [most, least] : [most];
+  const words = ends.map((each, k) => `${k ? "smallest" : "largest"} ${
+      of(short(each.value, 4), field.unit)} in ${run.bodies[each.b].name} at (${
+      placeOf(each).map(x => short(x, 4)).join(", ")})`);
+  box.textContent = told ? words.join("; ") + where : "";
+  return ends;
 }

@@ -1,14 +1,8 @@
 // ---- The page ---------------------------------------------------------------------------------------------
-const page = document.getElementById("page"), now = {
-  field: runs[0].fields[0].name,
-  step: 0,
-  scale: 1,
-  wide: false,
-  mesh: true,
-  ghost: true,
-  raw: false,
-  bands: false,
-  ranges: {}  // of a field: ends that were set
+const page = document.getElementById("page");
+const now = {
+  field: runs[0].fields[0].name, step: 0, scale: 1, wide: false, mesh: true, ghost: true, raw: false,
+  bands: false, ranges: {}  // of a field: ends that were set
 };
 const nearest = (run, t) => run.steps.reduce(
     (best, each, i) => Math.abs(each.time - t) < Math.abs(run.steps[best].time - t) ? i : best, 0);
@@ -73,11 +67,9 @@ const coloursMenu = choice("colours", "colours", [["smooth", "smooth"], ["bands"
 const lowBox = control("from", $("input", {type: "number", id: "low", step: "any"})),
       highBox = control("to", $("input", {type: "number", id: "high", step: "any"}));
 const natural = Math.min(...runs.map(run => run.scale));
-const scales = [...new Set([
-                 0, 1, natural,
-                 ...[0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].map(
-                     f => Number((f * natural).toPrecision(2)))
-               ])].sort((a, b) => a - b);
+const others = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].map(
+    f => Number((f * natural).toPrecision(2)));
+const scales = [...new Set([0, 1, natural, ...others])].sort((a, b) => a - b);
 const scaleSlider = control(
     "deformation x", $("input", {type: "range", id: "scale", min: 0, max: scales.length - 1, step: 1}),
     scaleOutput);

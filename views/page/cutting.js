@@ -66,7 +66,9 @@ function paint(panel, range) {
     setSection(each, cut, !field.contact && shown && body.tetrahedra > 0);
   }
   render(panel);
-  tellExtremes(panel, range);
+  const place = ({b, i}) => run.bodies[b].points.map(each => each[i]);
+  tellExtremes(panel, range, extremes(panel.bodies.map(each => each.values)), place,
+               run.interior || field.contact ? "" : " (on the surface)");
   drawLegend(panel, range);
 }
 const scenic = (group, values, c) => {
@@ -184,25 +186,11 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
       place.map(c => short(c, 4)).join(", ")}) as meshed: ${others.flatMap(say).join(", ")}`;
   Object.assign(read.dataset, {body: body.name, value, x: place[0], y: place[1], z: place[2]});
 }
-function tellExtremes(panel, range) {
-  const {run} = panel, field = fieldOf(run, now.field);
-  const [most, least] = extremesOf(run, stepOf(run), now.field);
-  const words = (which, {value, body, node}) => `${which} ${of(short(value, 4), field.unit)} in ${
-      body.name} at (${body.points.map(each => short(each[node], 4)).join(", ")})`;
-  const told = most && !["viscoplastic", "region"].includes(field.name) &&
-      most.value - least.value > 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value));
-  const where = run.interior || field.contact ? "" : " (on the surface)";
-  panel.most.textContent = told
-    ? words("largest", most) + (range.signed ? `; ${words("smallest", least)}` : "") + where
-    : "";
-}
 
 // ---- Pointers and keys ------------------------------------------------------------------------------------
 for (const panel of panels) {
-  const {canvas} = panel, {group} = panel.run, tell = event => {
-    const area = canvas.getBoundingClientRect();
-    hover(panel, ...(panel.last = [event.clientX - area.left, event.clientY - area.top]));
-  };
+  const {canvas} = panel, {group} = panel.run;
+  const tell = event => hover(panel, ...(panel.last = pointIn(canvas, event)));
   canvas.addEventListener("pointermove", event => {
     if (!event.buttons && event.pointerType === "mouse") requestAnimationFrame(() => tell(event));
   });
@@ -210,11 +198,11 @@ for (const panel of panels) {
   canvas.addEventListener("pointerleave", event => {
     if (event.pointerType === "mouse" && !event.buttons) { panel.last = null; hover(panel, -1, -1); }
   });
-  canvas.addEventListener("dblclick", () => { group.fit = true; redraw(); });
+  canvas.addEventListener("dblclick", () => showAll(group));
   canvas.addEventListener("keydown", event => {
     if (!turning) return;
-    const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
-    const {camera, target} = group, [azimuth, elevation] = anglesOf(group), view = viewNames[event.key - 1];
+    const way = WAYS[event.key], view = viewNames[event.key - 1];
+    const {camera, target} = group, [azimuth, elevation] = anglesOf(group);
     if (way && event.shiftKey) {
       const e = camera.matrixWorld.elements, far = 0.1 / camera.zoom;
       target.add(new THREE.Vector3(e[0], e[1], e[2]).multiplyScalar(way[0] * far))
@@ -222,7 +210,7 @@ for (const panel of panels) {
       lookFrom(group, [azimuth, elevation]);
     } else if (way) lookFrom(group, [azimuth + 10 * way[0], elevation + 10 * way[1]]);
     else if ("+=-".includes(event.key)) camera.zoom *= event.key === "-" ? 0.8 : 1.25;
-    else if (event.key === "0") group.fit = true;
+    else if (event.key === "0") showAll(group);
     else if (view && group.runs[0].views[view]) seen(group, view);
     else return;
     event.preventDefault();

@@ -50,17 +50,32 @@ async function readStep(run, i) {  // body number -> field name -> {e, q}
       step, run.bodies.flatMap(body => names.map(name => lengthOf(run, body, name))), run.steps[i + 1]?.all);
   step.fields = run.bodies.map((body, b) => {
     const fields = Object.fromEntries(names.map((name, k) => [name, all[b * n + k]]));
-    if (!data.space) fields.von_mises = invariant(stressNames.map(name => fields[name]));
+    if (!data.space) fields.von_mises = invariant(fields);
     return {...fields, region: body.region};
   });
 }
-const stressNames = ["s11", "s22", "s12", "s33"];
-function invariant(stress) {  // with a digit as small as those of the components
-  const found = stress.filter(Boolean), all = found.map(real), e = Math.max(...found.map(each => each.e));
-  return {e, q: Float64Array.from(all[0], (_, i) => Math.floor(scaled(vonMises(all, i), -e) + 0.5))};
+const stressOf = (fields, values) => ["11", "22", "33", "12", "23", "13"].map(
+    component => fields[`s${component}`] && values(fields[`s${component}`]));
+function invariant(fields) {  // with a digit as small as those of the components
+  const e = Math.max(...stressOf(fields, each => each.e).filter(each => each !== undefined));
+  return {e, q: vonMises(stressOf(fields, real)).map(value => Math.floor(scaled(value, -e) + 0.5))};
 }
-function vonMises([s11, s22, s12, s33], i) {
-  const a = s11[i], b = s22[i], c = s12[i], d = s33 ? s33[i] : 0;
-  return Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0));
+function vonMises([s11, s22, s33, ...others]) {
+  const shears = others.filter(Boolean);
+  return s11.map((a, i) => {
+    const b = s22[i], c = s33 ? s33[i] : 0;
+    let shear = 0;
+    for (const each of shears) shear += each[i] * each[i];
+    return Math.sqrt(Math.max(a * a + b * b - a * b + c * (c - a - b) + 3 * shear, 0));
+  });
+}
+function trianglesOf(first, second, third) {  // their corners, from what the others are more than the first
+  const found = new Int32Array(3 * first.length);
+  for (let i = 0; i < first.length; i++) {
+    found[3 * i] = first[i];
+    found[3 * i + 1] = first[i] + second[i];
+    found[3 * i + 2] = first[i] + third[i];
+  }
+  return found;
 }
 const fieldOf = (run, name) => run.fields.find(field => field.name === name);

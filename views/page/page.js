@@ -65,7 +65,7 @@ function drawCharts() {
 for (const element of [fieldMenu, valuesMenu, coloursMenu, lowBox, highBox, stepSlider, scaleSlider, wideBox,
                        meshBox, ghostBox])
   element.addEventListener("input", change);
-whole.addEventListener("click", () => { groups.forEach(group => { group.fit = true; }); redraw(); });
+whole.addEventListener("click", () => showAll(...groups.values()));
 new ResizeObserver(() => {
   if (page.clientWidth !== drawnWidth) drawCharts();
   if (runs[0].group.view) redraw();

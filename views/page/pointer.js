@@ -4,8 +4,8 @@ function startDrawing() {
 }
 function zoom(group, factor, x = group.view.x, y = group.view.y) {
   const {view} = group;
-  group
-      .view = {...view, half: view.half * factor, x: x + (view.x - x) * factor, y: y + (view.y - y) * factor};
+  group.view = {...view, half: view.half * factor, x: x + (view.x - x) * factor,
+                y: y + (view.y - y) * factor};
   redraw();
 }
 function move(group, x, y) {
@@ -14,10 +14,7 @@ function move(group, x, y) {
 }
 for (const panel of panels) {
   const {canvas} = panel, {group} = panel.run, down = new Map();
-  const length = () => 2 * group.view.half / canvas.clientWidth, point = event => {
-    const area = canvas.getBoundingClientRect();
-    return [event.clientX - area.left, event.clientY - area.top];
-  };
+  const length = () => 2 * group.view.half / canvas.clientWidth, point = event => pointIn(canvas, event);
   const place = ([x, y]) =>
       [group.view.x + (x - canvas.clientWidth / 2) * length(),
        group.view.y - (y - canvas.clientHeight / 2) * length()];
@@ -52,23 +49,13 @@ for (const panel of panels) {
       hover(panel, -1, -1);
     }
   });
-  canvas.addEventListener("dblclick", () => { group.fit = true; redraw(); });
+  canvas.addEventListener("dblclick", () => showAll(group));
   canvas.addEventListener("keydown", event => {
-    const step = 0.1 * group.view.half,
-          way = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [
-                   0, -step
-                 ]}[event.key];
-    if (way)
-      move(group, ...way);
-    else if (event.key === "+" || event.key === "=")
-      zoom(group, 0.8);
-    else if (event.key === "-")
-      zoom(group, 1.25);
-    else if (event.key === "0") {
-      group.fit = true;
-      redraw();
-    } else
-      return;
+    const step = 0.1 * group.view.half, way = WAYS[event.key];
+    if (way) move(group, step * way[0], step * way[1]);
+    else if ("+=-".includes(event.key)) zoom(group, event.key === "-" ? 1.25 : 0.8);
+    else if (event.key === "0") showAll(group);
+    else return;
     event.preventDefault();
   });
 }

@@ -1,5 +1,5 @@
 // ---- Bodies in space (views/solids.py): vertices of the page, then the middles of quadratic sides ---------
-const WITH_MIDDLES = /^(u[xyz])_middles$/, COMPONENTS = ["11", "22", "33", "12", "23", "13"];
+const WITH_MIDDLES = /^(u[xyz])_middles$/;
 // A quadratic side as four triangles of its corners and middles, and which sides of these lie along its own.
 const QUARTERS = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
 const ALONG = [[0, 1, 1], [1, 0, 1], [1, 1, 0], [0, 0, 0]];
@@ -11,10 +11,7 @@ async function loadMesh(body) {
   const {vertices: n, middles: m, triangles: t, tetrahedra: e, touching: k} = body;
   const a = await arrays(body.mesh, [n, n, n, m, m, m, t, t, t, t, e, e, e, e, n]);
   body.contactNodes = (await arrays(body.contact, [k]))[0].q;
-  const corners = new Int32Array(3 * t), cells = new Int32Array(4 * e), q = i => a[i].q;
-  for (let i = 0; i < t; i++) {
-    corners[3 * i] = q(6)[i]; corners[3 * i + 1] = q(6)[i] + q(7)[i]; corners[3 * i + 2] = q(6)[i] + q(8)[i];
-  }
+  const cells = new Int32Array(4 * e), q = i => a[i].q, corners = trianglesOf(q(6), q(7), q(8));
   for (let i = 0; i < e; i++)
     for (let c = 0, v = 0; c < 4; c++) cells[4 * i + c] = v += q(10 + c)[i];
   Object.assign(body, {cells, region: a[14], ...sidesOf(corners, n, m)});
@@ -72,19 +69,12 @@ function nodalValues(run, step, b, name) {  // by vertex and middle; not a numbe
     }
     if (body.rigid && name !== "region" && !fieldOf(run, name).contact)  // tools have no stress
       return new Float64Array(body.vertices + body.middles).fill(NaN);
-    if (name === "von_mises")
-      return withMiddles(body, vonMisesOf(COMPONENTS.map(c => real(fields[`s${c}`]))));
+    if (name === "von_mises") return withMiddles(body, vonMises(stressOf(fields, real)));
     if (!fieldOf(run, name).contact) return withMiddles(body, real(fields[name]));
     const values = new Float64Array(body.vertices).fill(NaN), given = real(fields[name]);
     body.contactNodes.forEach((v, i) => { values[v] = given[i]; });
     return withMiddles(body, values);
   })();
-}
-function vonMisesOf([s11, s22, s33, s12, s23, s13]) {
-  return s11.map((a, i) => {
-    const b = s22[i], c = s33[i], shear = s12[i] ** 2 + s23[i] ** 2 + s13[i] ** 2;
-    return Math.sqrt(Math.max(a * a + b * b - a * b + c * (c - a - b) + 3 * shear, 0));
-  });
 }
 function placed(run, step, b, scale) {  // x, y, z of vertices and middles
   const body = run.bodies[b];
@@ -93,14 +83,6 @@ function placed(run, step, b, scale) {  // x, y, z of vertices and middles
     const moved = nodalValues(run, step, b, name);
     return body.points[c].map((x, i) => x + scale * moved[i]);
   });
-}
-function extremesOf(run, step, name) {  // the largest value, and the smallest: value, body, node
-  const found = [null, null];
-  run.bodies.forEach((body, b) => nodalValues(run, step, b, name).forEach((value, node) => {
-    if (!(value <= found[0]?.value) && value === value) found[0] = {value, body, node};
-    if (!(value >= found[1]?.value) && value === value) found[1] = {value, body, node};
-  }));
-  return found;
 }
 
 // ---- The plane that cuts ----------------------------------------------------------------------------------

@@ -24,23 +24,7 @@ function shownValues(run, step, b) {  // {flat}: values by triangle, or {corner}
   }
   if (now.raw || !recoverable(name)) return {flat: real(fields[name])};
   if (name !== "von_mises") return {corner: averaged(body, real(fields[name]))};
-  const all = stressNames.filter(each => fields[each]).map(each => averaged(body, real(fields[each])));
-  return {corner: Float64Array.from(all[0], (_, i) => vonMises(all, i))};
-}
-function extremes(shown) {  // the largest value of the bodies, and the smallest: value, b, t, corner
-  const found = [null, null];
-  shown.forEach(({flat, corner}, b) => {
-    const values = flat || corner;
-    let most = 0, least = 0;
-    for (let i = 1; i < values.length; i++) {
-      if (values[i] > values[most]) most = i;
-      if (values[i] < values[least]) least = i;
-    }
-    const place = i => ({value: values[i], b, t: flat ? i : Math.floor(i / 3), corner: flat ? -1 : i % 3});
-    if (values.length && !(values[most] <= found[0]?.value)) found[0] = place(most);
-    if (values.length && !(values[least] >= found[1]?.value)) found[1] = place(least);
-  });
-  return found;
+  return {corner: vonMises(stressOf(fields, each => averaged(body, real(each))))};
 }
 function valueOf(fields, name, i) {  // a number with the decimals that it has
   if (name === "u") {
@@ -54,10 +38,7 @@ const lengthOf = (run, body, name) => fieldOf(run, name).vertex ? body.vertices 
 async function loadMesh(body) {
   const {vertices: nv, triangles: nt, edges: ne} = body;
   const a = await arrays(body.mesh, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
-  const t = new Int32Array(3 * nt);
-  for (let i = 0; i < nt; i++) {
-    t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
-  }
+  const t = trianglesOf(a[2].q, a[3].q, a[4].q);
   const from = a[5].q, middle = from.map((v, i) => v + a[8].q[i]);  // = from where sides are straight
   Object.assign(body, {
     x: real(a[0]), y: real(a[1]), corners: t, from, to: a[6].q, owner: a[7].q, middle, region: a[9]
