@@ -62,8 +62,9 @@ class Scene:
         for body in bodies:
             if body.get("name") not in (meshes or {}):
                 body["mesh"] = absolute(body.get("mesh"))
+        start = {"start": absolute(scene["start"])} if "start" in scene else {}
         path = folder / "scene.toml"
-        path.write_text(toml.document({**scene, "body": bodies}), encoding="utf-8")
+        path.write_text(toml.document({**scene, **start, "body": bodies}), encoding="utf-8")
         self._read(str(path), set)
 
     @staticmethod

@@ -1,5 +1,6 @@
 """Results read from folders and pickled; meshes of meshio, of arrays in any order and of a running Gmsh;
 errors of Python's own kinds."""
+import os
 import pickle
 import sys
 import types
@@ -56,6 +57,17 @@ class Results(OfTwoBlocks):
         self.assertEqual(opened.summary["final"], self.done.summary["final"])
         self.assertEqual(Path(opened.folder), self.folder / "out")
         opened.plot("contact"), opened.to_meshio(), repr(opened), opened._repr_html_()
+
+    def test_a_run_goes_on_from_a_folder(self):
+        block = {"body": [{"name": "block", "mesh": {"shape": "rectangle", "cells": 3},
+                           "material": {"young": 1000, "poisson": 0.3, "viscosity": 100, "yield_stress": 3},
+                           "boundary": [{"label": 1, "uy": 0}, {"label": 4, "ux": 0},
+                                        {"label": 3, "ty": "-5*t"}]}]}
+        begun = os.path.relpath(self.folder / "begun")
+        whole = mortier.Scene({**block, "time": {"end": 2, "steps": 4}}).run()
+        mortier.Scene({**block, "time": {"end": 1, "steps": 2}, "output": {"state": True}}).run(begun)
+        rest = mortier.Scene({**block, "start": begun, "time": {"end": 2, "steps": 2}}).run()
+        np.testing.assert_allclose(rest.stress["block"], whole.stress["block"], rtol=1e-12, atol=1e-12)
 
     def test_pickled(self):
         self.same(pickle.loads(pickle.dumps(self.done)))
