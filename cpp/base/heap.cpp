@@ -1,6 +1,5 @@
 #include "base/heap.h"
 
-#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -10,6 +9,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace mortier {
 

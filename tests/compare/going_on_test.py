@@ -2,7 +2,7 @@
 """Runs that go on from the state of another one: two runs equal one, supports are released, held, added."""
 import unittest
 
-from support import InFolder, mortier, value, values
+from support import ROOT, InFolder, mortier, value, values
 
 BLOCKS = """\
 [[body]]
@@ -120,6 +120,21 @@ class TwoRuns(Case):
     def test_of_tools_and_solids(self):
         self.assertTwoRunsEqualOne(blocks(top="tx = 0") + PLATE)
         self.assertTwoRunsEqualOne(SOLIDS)
+
+    def test_of_a_disc_that_rolls(self):
+        """Contact follows it by its own radius; it is locked where it is in the end."""
+        text = (ROOT / "scenes" / "ironing.toml").read_text().split("[time]")[0]
+        text = text.replace('uy = "-0.05*min(5*t, 1)"', 'fy = "-30*min(5*t, 1)"\nmoment = 0')
+        text += quantity("angle", 'displacement = { body = "cylinder" }', "rotation")
+        whole = self.run_it(text + until(1, 25), folder="whole")
+        rolled = self.begin(text + until(0.6, 15))
+        self.assertAgree(values(whole), values(self.go_on(text + until(1, 10))), 1e-8)
+        self.assertLess(value(rolled, "angle"), -0.4)
+        locked = text.replace('fy = "-30*min(5*t, 1)"\nmoment = 0', 'uy = "held"\nrotation = "held"')
+        locked = locked.replace('ux = "4.7*max(0, t - 0.2)/0.8"', 'ux = "held"')
+        held = self.go_on(locked + until(1, 2))
+        self.assertAlmostEqual(value(held, "press"), -30, delta=1e-8)
+        self.assertAlmostEqual(value(held, "angle"), value(rolled, "angle"), delta=1e-14)
 
     def test_of_temperature(self):
         hot = blocks(FLOWS + ", expansion = 1e-3").replace(
