@@ -16,7 +16,7 @@ OF_EQUAL_STEPS = {"few-steps-across-yield", "yields-at-once", "viscosity-small",
 # Not with quadratic displacements: no triangle is locked, an edge between held ones has a free middle.
 OF_LINEAR_TRIANGLES = {"locked-triangle", "load-on-support", "flow-locks"}
 # The scene says instead that these are refused beside an accuracy.
-REFUSED = {"interpolation-unmatched", "contact-meets-support", "scheme-rings"}
+REFUSED = {"interpolation-unmatched", "contact-meets-support", "scheme-rings", "start"}
 
 
 class CheckQuadratic(InFolder):
