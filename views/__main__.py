@@ -18,7 +18,7 @@ VIEWS = ("front", "top", "contact")
 
 
 def numbers(count):
-    """Reads so many of them as a list; one as a number."""
+    """A reader of `count` finite numbers between commas: a list, of count 1 the number."""
     def read(text):
         try:
             values = [float(word) for word in text.split(",")]

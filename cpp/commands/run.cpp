@@ -210,7 +210,7 @@ void Run::putInPlace() {
       write(body.name() + ".mesh",
             body.withMesh([](const auto& mesh, const auto&) { return meditText(mesh); }));
   if (attempt_->scene().keepsState)
-    write(stateName, stateText(*attempt_->model, solved.state, attempt_->facts.units));
+    write(stateName, stateText(*attempt_->model, solved.state, attempt_->facts.units, attempt_->facts.plane));
   write("summary.json", summary_);
   placed_ = folder_->commit(manifest);
 }

@@ -104,8 +104,8 @@ class DataLint {
  private:
   template <class Work>
   void forEachTime(const Expression& datum, Work work) const {
-    if (!datum.inTime) return work(0);
-    for (const double part : {unevenPart, 1.0}) work(part * scene_.time.end);
+    if (!datum.inTime) return work(scene_.time.begin);
+    for (const double part : {unevenPart, 1.0}) work(scene_.time.begin + part * scene_.time.duration());
   }
 
   void tellMissed(const Expression& datum, const Sum& missed) {

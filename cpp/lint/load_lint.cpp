@@ -83,7 +83,7 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
   constexpr size_t longest = 120;
   const TimePlan& time = input.scene.time;
   if (time.controlled()) return;
-  const double step = time.end / time.steps;
+  const double step = time.step();
   const std::vector<double>& breaks = datum.value->breaks;
   const std::string subject =
       (breaks.empty() ? "\"" + printable(datum.value->text, longest) + "\"" : std::string("the table")) +
@@ -91,8 +91,8 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
   std::vector<double> between;
   const Formulas* formula = datum.value->formula.get();
   for (const double kink : formula != nullptr ? kinksInTime(*formula) : breaks) {
-    if (kink > 0 && kink <= time.end * (1 + onStep) &&
-        std::abs(kink / step - std::round(kink / step)) > onStep)
+    const double passed = (kink - time.begin) / step;
+    if (passed > 0 && kink <= time.end * (1 + onStep) && std::abs(passed - std::round(passed)) > onStep)
       between.push_back(kink);
   }
   if (!between.empty())

@@ -92,7 +92,7 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, const Vi
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
-  const double step = time.end / time.steps;
+  const double step = time.step();
   const double relaxation =
       2 * flow.viscosity / relaxingModulus(material.description.elasticity, input.scene.plane);
   if (step > tooStiff * relaxation)
@@ -135,7 +135,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, const Vis
   }
   const double relaxation = 2 * flow.viscosity / e;
   const std::string unit = " " + input.scene.units.time;
-  if (time.end < frozen * relaxation)
+  if (time.duration() < frozen * relaxation)
     faults.add("viscosity-large", material.where("viscosity"),
                subject + "relaxes in 2 viscosity/E = " + digits(relaxation, 4) + unit + ", the run ends at " +
                    shortest(time.end) + unit + ": nothing has time to flow");
@@ -155,13 +155,14 @@ void checkCreep(const LintInput& input, const PlacedMaterial& material, const No
                       largest;  // elastic strains [1/s]
   const std::string loads = material.subject + "under loads of the order of " + digits(largest, 4) + " " +
                             input.scene.units.stress + " ";
-  if (rate * time.end < frozen)
+  if (rate * time.duration() < frozen)
     faults.add("viscosity-large", material.where("reference_rate"),
-               loads + "the run of " + shortest(time.end) + " " + input.scene.units.time + " creeps by " +
-                   digits(rate * time.end, 4) + " of the elastic strain: nothing has time to flow");
-  if (!time.controlled() && rate * time.end / time.steps > tooStiff)
+               loads + "the run of " + shortest(time.duration()) + " " + input.scene.units.time +
+                   " creeps by " + digits(rate * time.duration(), 4) +
+                   " of the elastic strain: nothing has time to flow");
+  if (!time.controlled() && rate * time.step() > tooStiff)
     faults.add("viscosity-small", material.where("reference_rate"),
-               loads + "a step creeps by " + digits(rate * time.end / time.steps, 4) +
+               loads + "a step creeps by " + digits(rate * time.step(), 4) +
                    " times the elastic strain, more than doubles resolve");
 }
 
@@ -169,7 +170,7 @@ void checkRelaxation(const LintInput& input, const PlacedMaterial& material,
                      const Viscoelasticity& viscoelasticity, Faults& faults) {
   constexpr double frozen = 1e-3;
   const std::string unit = " " + input.scene.units.time;
-  if (input.scene.time.end < frozen * viscoelasticity.relaxationTime)
+  if (input.scene.time.duration() < frozen * viscoelasticity.relaxationTime)
     faults.add("viscosity-large", material.where("relaxation_time"),
                material.subject + "relaxation_time = " + shortest(viscoelasticity.relaxationTime) + unit +
                    ", the run ends at " + shortest(input.scene.time.end) + unit +
@@ -189,7 +190,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
   const TimePlan& time = input.scene.time;
   const double largest = nominalStress(input.scene, data);
   const double afterFirstStep =
-      time.controlled() ? 0 : nominalStress(input.scene, data, time.end / time.steps);
+      time.controlled() ? 0 : nominalStress(input.scene, data, time.begin + time.step());
   double stiffest = 0;
   for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
     if (input.scene.bodies[b].isTool()) continue;
@@ -206,14 +207,14 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       if (const auto* creep = material.description.as<NortonCreep>())
         checkCreep(input, material, *creep, largest, faults);
       if (const auto* viscoelasticity = material.description.as<Viscoelasticity>()) {
-        stiffest = std::max(stiffest, time.end / time.steps / 2 / viscoelasticity->relaxationTime);
+        stiffest = std::max(stiffest, time.step() / 2 / viscoelasticity->relaxationTime);
         checkRelaxation(input, material, *viscoelasticity, faults);
       }
       const std::optional<Viscoplasticity> flow = beyondYield(material.description);
       if (!flow) continue;
       checkFlow(input, material, *flow, largest, afterFirstStep, faults);
       if (flow->viscosity == 0) continue;
-      stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
+      stiffest = std::max(stiffest, time.step() / (4 * flow->viscosity) *
                                         relaxingModulus(material.description.elasticity, input.scene.plane));
     }
     if (const std::string& place = input.scene.bodies[b].material.unusedProjection; !place.empty())

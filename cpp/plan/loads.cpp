@@ -36,10 +36,10 @@ double SampledDatum::largestIn(const TimePlan& plan) const {
   const auto over = [&](const std::vector<double>& times) {
     double result = 0;
     for (const double t : times)
-      result = std::max(result, kind == Kind::distance ? change(0, t) : largest(t));
+      result = std::max(result, kind == Kind::distance ? change(plan.begin, t) : largest(t));
     return result;
   };
-  return over(value->value.degreeInTime <= 1 ? std::vector<double>{0, plan.end} : trialTimes(plan));
+  return over(value->value.degreeInTime <= 1 ? std::vector<double>{plan.begin, plan.end} : trialTimes(plan));
 }
 
 double SampledDatum::stressOfUnit(const SceneDescription& scene) const {
@@ -142,10 +142,10 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
 
 std::vector<double> trialTimes(const TimePlan& plan) {
   constexpr int count = 64;
-  std::vector<double> times{0};
+  std::vector<double> times{plan.begin};
   for (int i = 0; i < count; ++i) {
-    times.push_back(plan.end * (i + unevenPart) / count);
-    times.push_back(plan.end * (i + 1) / count);
+    times.push_back(plan.begin + plan.duration() * (i + unevenPart) / count);
+    times.push_back(plan.begin + plan.duration() * (i + 1) / count);
   }
   return times;
 }
@@ -153,14 +153,15 @@ std::vector<double> trialTimes(const TimePlan& plan) {
 bool changesInTime(const SampledDatum& datum, const TimePlan& plan) {
   if (datum.value->constant) return false;
   for (const double t : trialTimes(plan))
-    if (datum.change(0, t) != 0) return true;
+    if (datum.change(plan.begin, t) != 0) return true;
   return false;
 }
 
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t) {
   double result = 0;
   for (const SampledDatum& datum : data) {
-    const double value = datum.kind == SampledDatum::Kind::distance ? datum.change(0, t) : datum.largest(t);
+    const double value =
+        datum.kind == SampledDatum::Kind::distance ? datum.change(scene.time.begin, t) : datum.largest(t);
     result = std::max(result, value * datum.stressOfUnit(scene));
   }
   return result;

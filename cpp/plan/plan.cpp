@@ -198,9 +198,7 @@ class Planner {
     const double tolerance = stepTolerance(scene_);
     const bool forRounds = inRounds() && !elastic;
     const std::string equal =
-        counted(time.steps, "step") +
-        (scene_.start.empty() ? " of " + shortest(time.end / time.steps) + " " + scene_.units.time
-                              : ", equal, from the end of " + scene_.start);
+        counted(time.steps, "step") + " of " + shortest(time.step()) + " " + scene_.units.time;
     const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
                                (forRounds ? " in the last round" : "");
     add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),

@@ -7,9 +7,9 @@
 #include "base/archive.h"
 #include "base/checksum.h"
 #include "base/error.h"
+#include "base/sealed_file.h"
 #include "base/whole_file.h"
 #include "report/checkpoint_members.h"
-#include "report/sealed_file.h"
 
 namespace mortier {
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h) and what a scene means; it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 17\n";
+constexpr const char* magic = "mortier checkpoint 17";
 
 template <class... Lists>
 uint64_t hashOfLists(const Lists&... lists) {

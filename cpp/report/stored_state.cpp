@@ -6,18 +6,26 @@
 
 #include "base/archive.h"
 #include "base/error.h"
+#include "base/formatted.h"
+#include "base/sealed_file.h"
 #include "report/checkpoint_members.h"
-#include "report/sealed_file.h"
 #include "time/march.h"
 
 namespace mortier {
 namespace {
 
-/// Names the layout (checkpoint_members.h); it changes with any member.
-constexpr std::string_view stateLayout = "mortier state 1\n";
+std::array<std::string, 5> kindOf(const Units& units, const std::string& plane) {
+  return {units.length, units.force, units.stress, units.time, plane};
+}
 
-std::array<std::string, 4> namesOf(const Units& units) {
-  return {units.length, units.force, units.stress, units.time};
+std::vector<std::string> lawsOf(const Material& material) {
+  std::vector<std::string> names;
+  for (const LawDescription& law : material.laws()) names.push_back(law.text());
+  return names;
+}
+
+std::string firstLine(double time) {
+  return stateKind + formatted("%.17g", time);
 }
 
 StoredState::StoredPair storedPair(const Model& model, const ContactPair& pair,
@@ -64,21 +72,22 @@ void keep(const std::vector<Values>& stored, size_t from, Values& own) {
 
 }  // namespace
 
-std::string stateText(const Model& model, const State& state, const Units& units) {
-  StoredState stored{namesOf(units), {}, {}, {}, state};
-  for (const Body& body : model.bodies) stored.bodies.push_back({body.name(), meshOf(body)});
+std::string stateText(const Model& model, const State& state, const Units& units, const std::string& plane) {
+  StoredState stored{kindOf(units, plane), {}, {}, {}, state};
+  for (const Body& body : model.bodies)
+    stored.bodies.push_back({body.name(), meshOf(body), lawsOf(body.material())});
   for (const ContactInterface& each : model.interfaces)
     stored.contacts.push_back(storedPair(model, each.pair(), each.nonmortarNodes()));
   for (const Tie& each : model.ties)
     stored.ties.push_back(storedPair(model, each.pair(), each.nonmortarNodes()));
   ArchiveWriter writer;
   writer(stored);
-  return sealed(stateLayout, writer.bytes);
+  return sealed(firstLine(state.time), writer.bytes);
 }
 
 StoredState readState(const std::string& path) {
   try {
-    const std::string content = readSealed(path, stateLayout);
+    const std::string content = readSealed(path, stateKind);
     ArchiveReader reader(content);
     StoredState stored;
     reader(stored);
@@ -92,8 +101,10 @@ StoredState readState(const std::string& path) {
   }
 }
 
-State beginningWith(const StoredState& stored, const Model& model, const Units& units) {
-  if (stored.units != namesOf(units)) throw InputError("other units, expected those of the scene it is of");
+State beginningWith(const StoredState& stored, const Model& model, const Units& units,
+                    const std::string& plane) {
+  if (stored.kind != kindOf(units, plane))
+    throw InputError("other units or another plane, expected those of the scene that it is of");
   State state = initialState(model);
   const State& from = stored.state;
   state.time = from.time;
@@ -107,6 +118,11 @@ State beginningWith(const StoredState& stored, const Model& model, const Units& 
     const BodyState& last = from.bodies[at - stored.bodies.begin()];
     BodyState& own = state.bodies[b];
     requireFits(last, own, body.name());
+    // What a law remembers beside the stress is known to that law alone.
+    if (body.material().components() > body.material().tensorComponents() &&
+        at->laws != lawsOf(body.material()))
+      throw InputError("body " + body.name() +
+                       " has another law, expected that of the scene it goes on from");
     const Matrix cold = own.thermalStrain;
     own = last;
     if (!body.heated()) own.thermalStrain.resize(0, 0);

@@ -14,10 +14,10 @@
 namespace mortier {
 
 struct StoredState {
-  /// A body, by its name, and the hash of its mesh.
   struct StoredBody {
     std::string name;
-    uint64_t mesh = 0;
+    uint64_t mesh = 0;              ///< hash
+    std::vector<std::string> laws;  ///< names
   };
   /// A contact or a tie, by the sides, and the nodes of its rows.
   struct StoredPair {
@@ -26,7 +26,7 @@ struct StoredState {
     std::vector<int> nodes;
   };
 
-  std::array<std::string, 4> units;  ///< length, force, stress, time
+  std::array<std::string, 5> kind;  ///< units of length, force, stress and time, and the plane
   std::vector<StoredBody> bodies;
   std::vector<StoredPair> contacts, ties;
   State state;
@@ -35,7 +35,8 @@ struct StoredState {
 constexpr const char* stateName = "state";
 
 /// The bytes of the file.
-std::string stateText(const Model& model, const State& state, const Units& units);
+/// \param plane  "stress", "strain", "axisymmetric" or "space"
+std::string stateText(const Model& model, const State& state, const Units& units, const std::string& plane);
 
 /// \throws InputError
 StoredState readState(const std::string& path);
@@ -43,7 +44,8 @@ StoredState readState(const std::string& path);
 /// The state in which a run of the model begins: bodies of the other run, by name, are where they were then,
 /// with their stress, others as drawn, at rest. A contact of the same rows keeps its forces and slip, another
 /// one has none; distances are those at which the bodies are. \throws InputError where a body has another
-/// mesh, or stresses of other components
-State beginningWith(const StoredState& stored, const Model& model, const Units& units);
+/// mesh, or other stresses
+State beginningWith(const StoredState& stored, const Model& model, const Units& units,
+                    const std::string& plane);
 
 }  // namespace mortier

@@ -20,8 +20,8 @@ namespace {
 
 /// Where data are tried before the run: the ends of the first and last step, and between.
 std::vector<double> sampleTimes(const TimePlan& plan) {
-  const double step = plan.end / (plan.steps > 0 ? plan.steps : 100);
-  return {0, step, 0.5 * plan.end, plan.end - step, plan.end};
+  const double step = plan.duration() / (plan.steps > 0 ? plan.steps : 100);
+  return {plan.begin, plan.begin + step, plan.begin + 0.5 * plan.duration(), plan.end - step, plan.end};
 }
 
 /// Adds an interface or a tie. \throws InputError headed by the place of the contact.
@@ -201,7 +201,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
       std::remove_cvref_t<decltype(nodes.places)> places;
       for (const int node : nonmortar.boundaryNodes(pair.nonmortar.label))
         places.push_back(nodes.places[node]);
-      requireFinite(*contact.gap, places, {0, contact.gap->inTime ? scene.time.end : 0});
+      requireFinite(*contact.gap, places,
+                    {scene.time.begin, contact.gap->inTime ? scene.time.end : scene.time.begin});
     });
     options.gap = finiteValue(*contact.gap, inSpace);
   }

@@ -150,7 +150,8 @@ tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the d
 pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`
 [body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
 at | m | | `[x, y]`, with `dimension = 3` `[x, y, z]` | the vertex: to a thousandth of the shortest edge there
-ux, uy, uz | m | free | datum, one of them at least | prescribed displacement; `uz` with `dimension = 3`
+ux, uy, uz | m | free | datum, or `"held"`; one of them at least | prescribed displacement; `uz` with
+  `dimension = 3`
 [tool] `[[tool]]` | | none | any number | a rigid body, without material ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
@@ -164,9 +165,10 @@ mesh | m | | as `mesh` of a body | in place of a shape: a file, of which the out
   `dimension = 3` a file or a shape of bodies in space, of which the surface is used
 at | m | the centre; of a `mesh` the origin | `[x, y]`, in space `[x, y, z]` | the point about which it turns,
   and whose displacement is prescribed
-ux, uy, uz | m | 0 | datum in t | prescribed displacement; `uz` with `dimension = 3`
-rotation | rad | 0 | datum in t | prescribed rotation about `at`, counterclockwise, linear
-rotation_x, rotation_y, rotation_z | rad | 0 | datum in t | the same with `dimension = 3`, about the axes
+ux, uy, uz | m | 0 | datum in t, or `"held"` | prescribed displacement; `uz` with `dimension = 3`
+rotation | rad | 0 | datum in t, or `"held"` | prescribed rotation about `at`, counterclockwise, linear
+rotation_x, rotation_y, rotation_z | rad | 0 | datum in t, or `"held"` | the same with `dimension = 3`, about
+  the axes
 fx, fy, fz | N/m | | datum in t | in place of `ux`, `uy`, `uz`: force on the tool, which is free in this
   direction; of rings and in space [N]
 moment | N | | datum in t | in place of `rotation`: moment about `at`; the tool turns freely

@@ -18,7 +18,7 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
   const auto call = [&](const Expression& expression, const Body& body, const int* label) {
     if (!expression.inTime) return;
     const LoadPlaces places = body.withMesh(
-        [&](const auto& mesh, const auto&) { return loadPlaces(expression, mesh, label, scene.time.end); });
+        [&](const auto& mesh, const auto&) { return loadPlaces(expression, mesh, label, scene.time); });
     if (!places.points.empty()) work(expression, places);
   };
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -27,8 +27,7 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
       if (!c.point && !c.pointInSpace)
         call(c.value, body, &c.label);
       else if (c.value.inTime)
-        work(c.value,
-             loadPlaces(c.value, c.point ? asSpacePoint(*c.point) : *c.pointInSpace, scene.time.end));
+        work(c.value, loadPlaces(c.value, c.point ? asSpacePoint(*c.point) : *c.pointInSpace, scene.time));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) call(*force, body, nullptr);
@@ -42,9 +41,10 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
 
 /// Found between the times of peaks, at which it has breaks.
 Course resolvedBetween(const std::function<double(double)>& datum, const std::vector<double>& peaks,
-                       double end, int fine) {
+                       const TimePlan& time, int fine) {
+  const double end = time.end;
   Course course;
-  double from = 0;
+  double from = time.begin;
   for (size_t i = 0; i <= peaks.size(); ++i) {
     const double to = i < peaks.size() ? peaks[i] : end;
     if (!(to > from)) continue;
@@ -64,10 +64,12 @@ Course resolvedBetween(const std::function<double(double)>& datum, const std::ve
 
 Course courseAt(const Expression& expression, const Datum& value, const SpacePoint& p,
                 const std::vector<double>& peaks, const SceneDescription& scene, int fine = 0) {
+  const double begin = scene.time.begin;
   const double end = scene.time.end;
   const auto datum = [value, p](double t) { return value(p, t); };
-  if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
-  Course course = peaks.empty() ? resolve(datum, 0, end, fine) : resolvedBetween(datum, peaks, end, fine);
+  if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, begin, end);
+  Course course =
+      peaks.empty() ? resolve(datum, begin, end, fine) : resolvedBetween(datum, peaks, scene.time, fine);
   if (!course.resolved)
     throw InputError(expression.where +
                      formatted(", expected a datum that can be sampled in time: at (%.6g, %.6g", p[0], p[1]) +
@@ -99,7 +101,8 @@ LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
 std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const Model& model) {
   constexpr double much = 0.25;
   std::vector<std::string> warnings;
-  const double k = scene.time.end / scene.time.steps;
+  const double k = scene.time.step();
+  const auto endOf = [&](double i) { return scene.time.begin + k * i; };
   forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
     if (expression.formula && proportionalToTime(*expression.formula)) return;
     double most = much;
@@ -110,11 +113,11 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
       // Of many steps most have no sample inside.
       double last = -1;
       for (const double t : course.times) {
-        const double i = std::min(std::floor(t / k), scene.time.steps - 1.0);
+        const double i = std::min(std::floor((t - scene.time.begin) / k), scene.time.steps - 1.0);
         if (i == std::exchange(last, i)) continue;
-        if (const double part = peakBetween(course, k * i, k * (i + 1)).height; part > most) {
+        if (const double part = peakBetween(course, endOf(i), endOf(i + 1)).height; part > most) {
           most = part;
-          warning = expression.where + formatted(": between t = %.6g and %.6g ", k * i, k * (i + 1)) +
+          warning = expression.where + formatted(": between t = %.6g and %.6g ", endOf(i), endOf(i + 1)) +
                     scene.units.time +
                     formatted(", a step, it goes %.0f %% of its range beyond both ends", 100 * part);
         }

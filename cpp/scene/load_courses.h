@@ -32,13 +32,13 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
 
 struct LoadPlaces {
   std::vector<SpacePoint> points;  ///< z = 0 in the plane
-  std::vector<double> times;       ///< of peaks that samples between 0 and the end would miss, ascending
+  std::vector<double> times;  ///< of peaks that samples from the beginning to the end would miss, ascending
 };
 
 /// \param label  of the edges or triangles where it acts; all of the mesh where null
 template <class Mesh>
-LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, double end);
+LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, const TimePlan& time);
 /// Of one that acts at a point.
-LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double end);
+LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, const TimePlan& time);
 
 }  // namespace mortier

@@ -47,7 +47,8 @@ struct Cell {
 /// Looks for values beyond those that are known.
 class Search {
  public:
-  Search(const Expression& datum, Interval known, double end) : datum_(datum), known_(known), end_(end) {}
+  Search(const Expression& datum, Interval known, double duration)
+      : datum_(datum), known_(known), duration_(duration) {}
 
   /// Places and times with values that are far beyond.
   void in(Cell whole, std::vector<SpacePoint>& places, std::vector<double>& times) {
@@ -87,7 +88,7 @@ class Search {
   /// Along what shows most of what is not beyond; where all directions show the same along the longest.
   [[nodiscard]] std::array<Cell, 2> halves(const Cell& cell, double extent) const {
     const auto [i, j] = cell.longest();
-    const SpacePoint along = (cell.corners[j] - cell.corners[i]).cwiseAbs() * end_;
+    const SpacePoint along = (cell.corners[j] - cell.corners[i]).cwiseAbs() * duration_;
     const double inTime = (cell.time.largest - cell.time.least) * extent;
     std::array<Cell, 2> best;
     double least = INFINITY;
@@ -120,13 +121,13 @@ class Search {
 
   const Expression& datum_;
   Interval known_;
-  double end_;
+  double duration_;  ///< of the run [s]
 };
 
-std::vector<double> trialTimes(double end) {
+std::vector<double> trialTimes(const TimePlan& time) {
   constexpr int count = 48;
-  std::vector<double> times{0, end};
-  for (int i = 0; i < count; ++i) times.push_back(end * (i + unevenPart) / count);
+  std::vector<double> times{time.begin, time.end};
+  for (int i = 0; i < count; ++i) times.push_back(time.begin + time.duration() * (i + unevenPart) / count);
   return times;
 }
 
@@ -149,9 +150,9 @@ std::vector<SpacePoint> independent(const Expression& datum, const std::vector<S
 }
 
 LoadPlaces found(const Expression& datum, std::vector<SpacePoint> candidates, const std::vector<Cell>& cells,
-                 double end) {
+                 const TimePlan& time) {
   const bool bends = datum.inTime && datum.value.degreeInTime > 1;
-  std::vector<double> times = bends ? trialTimes(end) : std::vector<double>{0, end};
+  std::vector<double> times = bends ? trialTimes(time) : std::vector<double>{time.begin, time.end};
   LoadPlaces result;
   if (datum.value.enclosure && datum.inTime) {
     Interval known{INFINITY, -INFINITY};
@@ -160,7 +161,7 @@ LoadPlaces found(const Expression& datum, std::vector<SpacePoint> candidates, co
         const double value = datum.value(p, t);
         known = {std::min(known.least, value), std::max(known.largest, value)};
       }
-    Search search(datum, known, end);
+    Search search(datum, known, time.duration());
     // What is linear in time has no peaks: it is looked for only where the candidates show none of it.
     const bool hidden = known.least == 0 && known.largest == 0;
     for (const Cell& cell : cells)
@@ -203,7 +204,7 @@ void addPlacesOf(const std::vector<SpacePoint>& corners, int inside, std::vector
   }
 }
 
-LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* label, double end) {
+LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* label, const TimePlan& time) {
   std::vector<SpacePoint> candidates;
   std::vector<Cell> cells;
   if (label != nullptr) {
@@ -212,7 +213,7 @@ LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* labe
       std::vector<SpacePoint> corners;
       for (const int v : side) corners.push_back(parts.vertices[v]);
       addPlacesOf(corners, inside, candidates);
-      cells.push_back({std::move(corners), false, {0, end}});
+      cells.push_back({std::move(corners), false, {time.begin, time.end}});
     }
   } else if (!parts.vertices.empty()) {
     const auto box = boxOf(parts.vertices);
@@ -224,31 +225,31 @@ LoadPlaces placesIn(const Parts& parts, const Expression& datum, const int* labe
       candidates.push_back(parts.vertices[element[0]]);
       candidates.emplace_back(sum / static_cast<double>(element.size()));
     }
-    cells.push_back({{box.min(), box.max()}, true, {0, end}});
+    cells.push_back({{box.min(), box.max()}, true, {time.begin, time.end}});
   }
   if (candidates.empty()) return {};
-  if (datum.value.degree == 0) return loadPlaces(datum, candidates.front(), end);
-  return found(datum, std::move(candidates), cells, end);
+  if (datum.value.degree == 0) return loadPlaces(datum, candidates.front(), time);
+  return found(datum, std::move(candidates), cells, time);
 }
 
 }  // namespace
 
-LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, double end) {
-  return found(datum, {point}, {{{point, point}, false, {0, end}}}, end);
+LoadPlaces loadPlaces(const Expression& datum, const SpacePoint& point, const TimePlan& time) {
+  return found(datum, {point}, {{{point, point}, false, {time.begin, time.end}}}, time);
 }
 
 template <class Mesh>
-LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, double end) {
+LoadPlaces loadPlaces(const Expression& datum, const Mesh& mesh, const int* label, const TimePlan& time) {
   Parts parts;
   for (const auto& p : mesh.vertices) parts.vertices.push_back(asSpacePoint(p));
   if (label != nullptr)
     parts.sides = listsOf(sidesWith(mesh, *label));
   else
     parts.elements = listsOf(elementsOf(mesh));
-  return placesIn(parts, datum, label, end);
+  return placesIn(parts, datum, label, time);
 }
 
-template LoadPlaces loadPlaces(const Expression&, const TriangleMesh&, const int*, double);
-template LoadPlaces loadPlaces(const Expression&, const TetrahedronMesh&, const int*, double);
+template LoadPlaces loadPlaces(const Expression&, const TriangleMesh&, const int*, const TimePlan&);
+template LoadPlaces loadPlaces(const Expression&, const TetrahedronMesh&, const int*, const TimePlan&);
 
 }  // namespace mortier

@@ -1,10 +1,14 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "base/error.h"
 #include "scene/readers.h"
+#include "solver/state.h"
 
 namespace mortier {
 
@@ -201,6 +205,14 @@ void readStart(const TableReader& root, SceneDescription& scene) {
   if (std::error_code none; !std::filesystem::is_regular_file(scene.start + "/state", none))
     root.reject("start", "a result with a state, of a run with output.state = true (there is no " +
                              scene.start + "/state)");
+  // Its time; what is wrong with the file is found where the whole of it is read.
+  std::string line;
+  std::getline(std::ifstream(scene.start + "/state", std::ios::binary), line);
+  if (line.starts_with(stateKind))
+    scene.time.begin = std::strtod(line.c_str() + std::strlen(stateKind), nullptr);
+  if (!(scene.time.end > scene.time.begin))
+    root.reject("start", "a result that ends before time.end = " + shortest(scene.time.end) +
+                             ", this one ends at t = " + shortest(scene.time.begin));
   if (root.has("accuracy"))
     root.reject("start", "none beside accuracy, whose estimates are of bodies that begin at rest");
   for (const BodyDescription& body : scene.bodies) {

@@ -41,6 +41,9 @@ struct State {
   std::vector<Vector> tieForce = {};  ///< per tie and row [N/m]
 };
 
+/// What the file of a state begins with, before its time (report/stored_state.h). Changes with any member.
+constexpr const char* stateKind = "mortier state 1, t = ";
+
 /// The state of the solver itself that a run needs to resume, per body; empty before the first step.
 struct SolverMemory {
   std::vector<char> enginesGivenUp;  ///< of linear algebra, one after the other: how many

@@ -24,6 +24,11 @@ struct TimePlan {
   std::vector<bool> slidingAllowed = {};
   /// Whether an overlap of bodies that nothing explains ends the run; else it is only reported.
   bool overlapEnds = true;
+  double begin = 0;  ///< 0, or the end of the run from which this one goes on [s]
+
+  [[nodiscard]] double duration() const { return end - begin; }
+  /// Length of an equal step [s].
+  [[nodiscard]] double step() const { return duration() / steps; }
   /// Whether steps are chosen by their error; otherwise they are equal.
   [[nodiscard]] bool controlled() const { return tolerance > 0; }
 };

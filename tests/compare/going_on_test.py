@@ -223,6 +223,16 @@ class Stages(Case):
         self.assertAlmostEqual(value(last, "work"), value(last, "stored") + value(last, "heat"),
                                delta=0.05 * value(last, "heat"))
 
+    def test_data_count_from_the_start_on(self):
+        """What has no value before is no fault, and steps are those of this run."""
+        self.begin(blocks() + until(1, 1))
+        late = blocks(top='ty = "-4 - sqrt(t - 1)*max(1, t - 1)"') + until(5, 4)
+        self.go_on(late)
+        checked = mortier("check", "scene.toml", cwd=self.folder)
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        self.assertIn("4 steps of 1 s", checked.stdout)
+        self.assertNotIn("kink-between-steps", checked.stdout)
+
     def test_held_without_a_start_is_zero(self):
         zero = self.run_it(blocks(top="uy = 0").replace("{ label = 1, uy = 0 }", "{ label = 1, uy = 0.01 }")
                            + until(1, 1))
@@ -249,11 +259,20 @@ class Refused(Case):
                           'start = "first": body upper has another mesh')
         self.refuse_start("degree = 2\n" + self.text + until(2, 1), "body upper has another degree")
         self.refuse_start('plane = "strain"\n' + self.text + until(2, 1),
-                          "has stresses of 4 components, expected 3")
-        self.refuse_start('units = "mm, N, MPa"\n' + self.text + until(2, 1), "other units")
+                          "other units or another plane")
+        self.refuse_start('units = "mm, N, MPa"\n' + self.text + until(2, 1), "other units or another plane")
+
+    def test_another_law_that_remembers(self):
+        """Its back stress is known to it alone."""
+        law = ', law = "viscoplastic", yield_stress = 3, reference_stress = 1, reference_rate = 1, '
+        first = blocks(law + "exponent = 1, isotropic_hardening = 10")
+        self.begin('plane = "strain"\n' + first + until(1, 1))
+        other = blocks(', law = "standard-solid", relaxation_time = 1, relaxed_fraction = 0.3')
+        self.refuse_start('plane = "strain"\n' + other + until(2, 1), "body upper has")
 
     def test_what_has_no_place(self):
-        self.refuse_start(self.text + until(1, 1), "it ends at t = 1, expected a time before time.end = 1")
+        self.refuse_start(self.text + until(1, 1),
+                          "expected a result that ends before time.end = 1, this one ends at t = 1")
         self.refuse_start(self.text + until(2, 1) + "[accuracy]\nenergy = 0.1\n", "none beside accuracy")
         self.refuse_start(self.text.replace('name = "lower"', 'name = "lower"\ninitial_stress = { s11 = 1 }')
                           + until(2, 1), "none beside initial_stress: body lower")
