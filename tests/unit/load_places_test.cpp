@@ -11,16 +11,17 @@
 namespace mortier::load_places_test {
 
 constexpr double end = 1;
+const TimePlan plan{end};
 constexpr int top = 3;
 
 LoadPlaces placesOf(const std::string& text, const int* label = &top) {
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
-  return loadPlaces(parseExpression(text, "test"), mesh, label, end);
+  return loadPlaces(parseExpression(text, "test"), mesh, label, plan);
 }
 
 LoadPlaces placesInCube(const std::string& text, const int* label = &top) {
   const TetrahedronMesh mesh = cuboidMesh({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}});
-  return loadPlaces(parseExpression(text, "test", true), mesh, label, end);
+  return loadPlaces(parseExpression(text, "test", true), mesh, label, plan);
 }
 
 /// The largest value over the places and the times, beside those of a run in 500 equal parts.
@@ -60,7 +61,7 @@ TEST(LoadPlaces, dataThatAreLinearInTimeAreReadAtTheirEnds) {
     return value(x, t);
   };
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
-  EXPECT_EQ(loadPlaces(datum, mesh, &top, end).points.size(), 1);
+  EXPECT_EQ(loadPlaces(datum, mesh, &top, plan).points.size(), 1);
   EXPECT_LE(calls, 2 * 2 * 9 * 6);
 }
 
