@@ -55,7 +55,7 @@ RunFacts factsOf(const SceneDescription& scene, int threads) {
     facts.choices.push_back(contact.choice);
     nonmortars.insert(contact.nonmortar().body);
   }
-  for (const ContactDescription& tie : scene.ties) facts.ties.push_back(word(tie.variant));
+  for (const ContactDescription& tie : scene.ties) facts.ties.push_back(wordOfTie(tie));
   facts.contact = joined({facts.variants.begin(), facts.variants.end()}, "none");
   facts.nonmortar = joined(nonmortars, "none");
   facts.projection = joined(projections, "none");

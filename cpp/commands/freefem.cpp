@@ -226,11 +226,13 @@ void takeTies(SceneDescription& scene, Model& model) {
     const Tie& tie = model.ties[k];
     const auto count = static_cast<int>(tie.nonmortarNodes().size());
     const bool apart = tie.distance() > touching * model.bodies[tie.pair().nonmortar.body].extent();
-    if (scene.inSpace() || apart || tie.rows() != tie.dimension() * count)
+    const ContactDescription& of = scene.ties[k];
+    const bool plain = of.tieKind == TieKind::surface && of.stiffness == 0 && of.offset.empty();
+    if (scene.inSpace() || !plain || apart || tie.rows() != tie.dimension() * count)
       throw InputError(
           scene.ties[k].where +
-          ": contact: kind = \"tied\", expected sides in the plane that touch, with no nonmortar "
-          "node that is held or tied twice (all that the FreeFEM method knows)");
+          ": contact: kind = \"tied\", expected two rigidly joined sides in the plane that touch, with "
+          "no nonmortar node that is held or tied twice (all that the FreeFEM method knows)");
     scene.contacts.push_back(scene.ties[k]);
     addContact(scene, scene.ties[k], model);
   }

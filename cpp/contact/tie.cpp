@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
 
+#include "base/error.h"
 #include "base/quadrature_rules.h"
 #include "contact/interface_entries.h"
 #include "contact/row_functions.h"
@@ -14,9 +16,6 @@
 
 namespace mortier {
 namespace {
-
-/// Nodes of a line element or a triangle, and of what is behind it, with values of their shape functions.
-using NodeValues = std::vector<std::pair<int, double>>;
 
 /// Of the mortar side at a point.
 struct Opposite {
@@ -70,50 +69,133 @@ Eigen::Matrix<double, dim, Eigen::Dynamic> placesOf(const Nodes& all, std::span<
   return places;
 }
 
+/// Of a mesh of one element.
+template <int dim, class Nodes>
+NodeValues ofOnlyElement(const Nodes& nodes, const SpacePoint& x) {
+  const std::span own(nodes.of(0), static_cast<size_t>(nodes.perElement()));
+  const auto middle = Eigen::Matrix<double, dim + 1, 1>::Constant(1.0 / (dim + 1));
+  return extended<dim>(own, placesOf<dim>(nodes, own), middle, x.head<dim>());
+}
+
+/// The nodes of a side, and what of it is theirs [m], in space and of rings [m^2].
+std::map<int, double> partsOfNodes(const ContactMesh& of, int label, bool axisymmetric) {
+  std::map<int, double> parts;
+  for (size_t e = 0; e < of.mesh.boundaryEdges.size(); ++e) {
+    if (of.mesh.boundaryLabels[e] != label) continue;
+    const auto [a, b] = of.mesh.boundaryEdges[e];
+    const auto add = [&](int node, double length) {
+      parts[node] += length * (axisymmetric ? circumference(of.nodes.places[node]) : 1);
+    };
+    const Point& xa = of.nodes.places[a];
+    const Point& xb = of.nodes.places[b];
+    if (of.nodes.degree == 1) {
+      for (const int node : {a, b}) add(node, (xb - xa).norm() / 2);
+      continue;
+    }
+    const int middle = of.nodes.middles[e];
+    const Point& xm = of.nodes.places[middle];
+    add(a, (4 * xm - 3 * xa - xb).norm() / 6);
+    add(middle, (xb - xa).norm() * 2 / 3);
+    add(b, (xa - 4 * xm + 3 * xb).norm() / 6);
+  }
+  return parts;
+}
+
+std::map<int, double> partsOfNodes(const SpaceContactMesh& of, int label, bool /*axisymmetric*/) {
+  std::map<int, double> parts;
+  for (size_t i = 0; i < of.nodes.faces.size(); ++i) {
+    if (of.mesh.boundaryLabels[i] != label) continue;
+    const std::array<int, 6>& face = of.nodes.faces[i];
+    const auto& x = of.nodes.places;
+    const double area = (x[face[1]] - x[face[0]]).cross(x[face[2]] - x[face[0]]).norm() / 2;
+    for (int k = 0; k < of.nodes.perFace(); ++k)
+      parts[face[k]] += of.nodes.degree == 2 && k < 3 ? 0 : area / 3;
+  }
+  return parts;
+}
+
 }  // namespace
 
-/// Of the two displacements, by nodes and without a direction: rows of a scalar jump.
+RigidTrace::RigidTrace(int ofBody, const ContactMesh& mesh)
+    : body(ofBody),
+      nodes(mesh.nodes.count()),
+      at([&nodes = mesh.nodes](const SpacePoint& x) { return ofOnlyElement<2>(nodes, x); }) {}
+
+RigidTrace::RigidTrace(int ofBody, const SpaceContactMesh& mesh)
+    : body(ofBody),
+      nodes(mesh.nodes.count()),
+      at([&nodes = mesh.nodes](const SpacePoint& x) { return ofOnlyElement<3>(nodes, x); }) {}
+
+/// Of the displacements, by nodes and without a direction: rows of a scalar jump.
 struct Tie::Jumps {
-  std::map<PartVertex, int> rowOf;  ///< by nonmortar nodes and smooth parts
-  Triplets nonmortar, mortar;
+  std::function<SpacePoint(int)> placeOf;  ///< of a nonmortar node [m]
+  const RigidTrace* offset = nullptr;
+
+  std::map<PartVertex, int> rowOf;          ///< by nonmortar nodes and smooth parts
+  std::array<Triplets, 3> sides;            ///< nonmortar, mortar, the third body
+  Triplets functions;                       ///< rows x points: row functions times weights
   std::map<int, double> lengths;            ///< int chi, by rows
   std::map<int, std::set<int>> neighbours;  ///< rows on one element
   // Of the points.
-  std::array<Triplets, 2> traces;
+  std::array<Triplets, 3> traces;
   std::vector<std::array<int, 2>> elements;
   std::vector<double> weights, sizes;
 
   int row(int node, int part) {
     return rowOf.try_emplace({node, part}, static_cast<int>(rowOf.size())).first->second;
   }
+  void addTo(std::array<Triplets, 3>& to, int row, double weight, const NodeValues& own,
+             const NodeValues& across) const {
+    SpacePoint x = SpacePoint::Zero();
+    for (const auto& [node, value] : own) {
+      to[0].emplace_back(row, node, weight * value);
+      x += value * placeOf(node);
+    }
+    for (const auto& [node, value] : across) to[1].emplace_back(row, node, -weight * value);
+    if (offset == nullptr) return;
+    for (const auto& [node, value] : offset->at(x)) to[2].emplace_back(row, node, -weight * value);
+  }
   void add(int row, double weight, const NodeValues& own, const NodeValues& across) {
-    for (const auto& [node, value] : own) nonmortar.emplace_back(row, node, weight * value);
-    for (const auto& [node, value] : across) mortar.emplace_back(row, node, -weight * value);
+    addTo(sides, row, weight, own, across);
     lengths[row] += weight;
   }
+  /// At the point that was added last.
+  void addAtPoint(int row, double weight, const NodeValues& own, const NodeValues& across) {
+    add(row, weight, own, across);
+    functions.emplace_back(row, static_cast<int>(elements.size()) - 1, weight);
+  }
   void addPoint(const NodeValues& own, const Opposite& opposite, int element, double weight, double size) {
-    const auto number = static_cast<int>(elements.size());
-    for (const auto& [node, value] : own) traces[0].emplace_back(number, node, value);
-    for (const auto& [node, value] : opposite.values) traces[1].emplace_back(number, node, -value);
+    addTo(traces, static_cast<int>(elements.size()), 1, own, opposite.values);
     elements.push_back({element, opposite.element});
     weights.push_back(weight);
     sizes.push_back(size);
-  }
-  [[nodiscard]] TiePoints points(int nodes1, int nodes2) const {
-    const auto count = static_cast<Eigen::Index>(elements.size());
-    return {{assembled(count, nodes1, traces[0]), assembled(count, nodes2, traces[1])},
-            elements,
-            Eigen::Map<const Vector>(weights.data(), count),
-            Eigen::Map<const Vector>(sizes.data(), count)};
   }
   void join(const std::vector<int>& rows) {
     for (const int row : rows) neighbours[row].insert(rows.begin(), rows.end());
   }
 };
 
+template <class Contact>
+Tie::Jumps Tie::between(const Contact& nonmortar, int mortarNodes, const TieOptions& options) {
+  sides_ = {{pair_.nonmortar.body, {}, {}}, {pair_.mortar.body, {}, {}}};
+  nodesOfSides_ = {nonmortar.nodes.count(), mortarNodes};
+  Jumps jumps;
+  jumps.placeOf = [&nodes = nonmortar.nodes](int node) { return asSpacePoint(nodes.places[node]); };
+  if (options.offset) {
+    jumps.offset = &*options.offset;
+    sides_.push_back({options.offset->body, {}, {}});
+    nodesOfSides_.push_back(options.offset->nodes);
+  }
+  return jumps;
+}
+
 Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
          const TieOptions& options)
     : pair_(pair) {
+  if (options.kind != TieKind::surface) {
+    followPoint(nonmortarMesh, {pair.mortar.body, mortarMesh}, options);
+    return;
+  }
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
@@ -121,7 +203,7 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
   const ElementsBehind behind = elementsBehind(mortarMesh.mesh, pair.mortar.label);
   const ElementsBehind ownBehind = elementsBehind(nonmortarMesh.mesh, pair.nonmortar.label);
   const bool atNodes = pair.coupling == CouplingKind::interpolation;
-  Jumps jumps;
+  Jumps jumps = between(nonmortarMesh, mortarMesh.nodes.count(), options);
   double length = 0;
   for (size_t number = 0; number < parts.size(); ++number) {
     const SmoothPart& part = parts[number];
@@ -180,17 +262,21 @@ Tie::Tie(const ContactPair& pair, const ContactMesh& nonmortarMesh, const Contac
           jumps.addPoint(own, opposite, ownBehind.at(sideOf(std::array{part.nodes[e], part.nodes[e + 1]})),
                          ds, part.s[e + 1] - part.s[e]);
           for (Eigen::Index i = 0; i < rows.size() && !atNodes; ++i)
-            if (rows[i] >= 0) jumps.add(rowOf[rows[i]], ds * chi[i], own, opposite.values);
+            if (rows[i] >= 0) jumps.addAtPoint(rowOf[rows[i]], ds * chi[i], own, opposite.values);
         });
   }
   if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
   overlap_ /= length;
-  setRows(jumps, options, nonmortarMesh.nodes.count(), mortarMesh.nodes.count());
+  setRows(jumps, options);
 }
 
 Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const SpaceContactMesh& mortarMesh,
          const TieOptions& options)
     : pair_(pair), dimension_(3) {
+  if (options.kind != TieKind::surface) {
+    followPoint(nonmortarMesh, {pair.mortar.body, mortarMesh}, options);
+    return;
+  }
   ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   shareNormals(nonmortar, mortar);
@@ -210,7 +296,7 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
         if (nodes[k] == corners[c]) at[k] = mu[c];
     return Opposite{element, extended<3>(nodes, placesOf<3>(mortarMesh.nodes, nodes), at, x)};
   };
-  Jumps jumps;
+  Jumps jumps = between(nonmortarMesh, mortarMesh.nodes.count(), options);
   const bool atNodes = pair.coupling == CouplingKind::interpolation;
   std::map<PartVertex, RayHit> hits;
   for (auto& [key, vertex] : refinement.vertices) {
@@ -257,34 +343,138 @@ Tie::Tie(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh, const S
         jumps.addPoint(own, opposite, element, ds, std::sqrt(twiceArea));
         for (int k = 0; k < 3 && !atNodes; ++k)
           for (const auto& [row, share] : corners[k]->rows)
-            jumps.add(row, ds * b[k] * share, own, opposite.values);
+            jumps.addAtPoint(row, ds * b[k] * share, own, opposite.values);
       }
     });
   }
   if (jumps.rowOf.empty()) refuseWithoutRows(sidesText(pair, nonmortarMesh.mesh, mortarMesh.mesh));
   overlap_ = covered / nonmortar.area;
-  setRows(jumps, options, nonmortarMesh.nodes.count(), mortarMesh.nodes.count());
+  setRows(jumps, options);
 }
 
-Matrix TiePoints::jump(const Vector& uNonmortar, const Vector& uMortar, int dimension) const {
-  Matrix result = Matrix::Zero(dimension, weights.size());
-  const auto add = [&](const Eigen::SparseMatrix<double>& trace, const Vector& u) {
-    forEachEntry(trace, [&](int point, int node, double value) {
-      result.col(point) += value * u.segment(static_cast<Eigen::Index>(dimension) * node, dimension);
-    });
-  };
-  add(traces[0], uNonmortar);
-  add(traces[1], uMortar);
+template <class Contact>
+void Tie::followPoint(const Contact& nonmortar, const RigidTrace& point, const TieOptions& options) {
+  const std::map<int, double> parts = partsOfNodes(nonmortar, pair_.nonmortar.label, options.axisymmetric);
+  if (parts.empty())
+    throw InputError(nonmortar.mesh.name + " has no side with label " +
+                     std::to_string(pair_.nonmortar.label));
+  overlap_ = 1;
+  Jumps jumps = between(nonmortar, point.nodes, options);
+  if (options.kind == TieKind::distributing) {
+    setMeanRows(parts, jumps, point, options);
+    return;
+  }
+  pair_.coupling = CouplingKind::interpolation;
+  for (const auto& [node, part] : parts)
+    jumps.add(jumps.row(node, 0), 1, {{node, 1}}, point.at(jumps.placeOf(node)));
+  setRows(jumps, options);
+}
+
+// A row for each rigid motion phi: sum_a w_a phi(x_a) . (u1 - u2)(x_a), over the side and the root of the
+// mean square of phi.
+void Tie::setMeanRows(const std::map<int, double>& parts, const Jumps& jumps, const RigidTrace& point,
+                      const TieOptions& options) {
+  const int n = dimension_;
+  double whole = 0;
+  SpacePoint centre = SpacePoint::Zero();
+  for (const auto& [node, part] : parts) {
+    whole += part;
+    centre += part * jumps.placeOf(node);
+  }
+  centre /= whole;
+  using Motion = std::function<SpacePoint(const SpacePoint&)>;
+  std::vector<Motion> motions;
+  for (int c = 0; c < n; ++c)
+    if (options.along[c] && (!options.axisymmetric || c == 1))
+      motions.emplace_back([c](const SpacePoint&) { return SpacePoint(SpacePoint::Unit(c)); });
+  const bool turns = !options.axisymmetric && options.along == std::array{true, true, true};
+  for (int c = n == 3 ? 0 : 2; c < 3 && turns; ++c)
+    motions.emplace_back(
+        [c, &centre](const SpacePoint& x) { return SpacePoint(SpacePoint::Unit(c).cross(x - centre)); });
+  std::vector<double> weights;
+  for (const auto& [node, part] : parts)
+    if (part > 0) weights.push_back(part);
+  std::array<Triplets, 2> entries;
+  Triplets functions;
+  int row = 0;
+  for (const Motion& motion : motions) {
+    double square = 0;
+    for (const auto& [node, part] : parts) square += part * motion(jumps.placeOf(node)).squaredNorm();
+    if (!(square > 0)) continue;
+    const double scale = 1 / std::sqrt(whole * square);
+    int number = 0;
+    for (const auto& [node, part] : parts) {
+      if (!(part > 0)) continue;
+      const SpacePoint x = jumps.placeOf(node);
+      const SpacePoint value = scale * part * motion(x);
+      for (int c = 0; c < n; ++c) {
+        entries[0].emplace_back(row, n * node + c, value[c]);
+        functions.emplace_back(row, n * number + c, value[c]);
+        for (const auto& [of, shape] : point.at(x))
+          entries[1].emplace_back(row, n * of + c, -shape * value[c]);
+      }
+      ++number;
+    }
+    ++row;
+  }
+  for (size_t k = 0; k < sides_.size(); ++k)
+    sides_[k].C = assembled<ConstraintRows>(row, static_cast<Eigen::Index>(n) * nodesOfSides_[k],
+                                            k < 2 ? entries[k] : Triplets());
+  for (const auto& [node, part] : parts) nodes_.push_back(node);
+  setCompliance(options.stiffness, assembled(row, n * static_cast<Eigen::Index>(weights.size()), functions),
+                Eigen::Map<const Vector>(weights.data(), static_cast<Eigen::Index>(weights.size())));
+}
+
+void Tie::setCompliance(double stiffness, const Eigen::SparseMatrix<double>& functions,
+                        const Vector& weights) {
+  if (!(stiffness > 0)) return;
+  layer_ = functions;
+  for (int column = 0; column < layer_.outerSize(); ++column)
+    layer_.col(column) /= stiffness * weights[column / dimension_];
+  compliance_ = functions * layer_.transpose();
+}
+
+Vector Tie::heldJump(const std::vector<Vector>& u) const {
+  Vector result = Vector::Zero(static_cast<Eigen::Index>(heldNodes_.size()));
+  for (size_t k = 0; k < heldRows_.size(); ++k) result += heldRows_[k] * u[sides_[k].body];
   return result;
 }
 
-void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int nodes2) {
-  points_ = jumps.points(nodes1, nodes2);
+Vector Tie::jump(const std::vector<Vector>& u) const {
+  Vector result = Vector::Zero(rows());
+  for (const auto& [body, C, traces] : sides_) result += C * u[body];
+  return result;
+}
+
+void Tie::subtractForces(const Vector& l, std::vector<Vector>& force) const {
+  for (const auto& [body, C, traces] : sides_) force[body] -= C.transpose() * l;
+}
+
+Matrix Tie::jumpAtPoints(const std::vector<Vector>& u, const Vector& l) const {
+  Matrix result = Matrix::Zero(dimension_, points_.weights.size());
+  for (const auto& [body, C, traces] : sides_)
+    forEachEntry(traces, [&, of = body](int point, int node, double value) {
+      result.col(point) += value * u[of].segment(static_cast<Eigen::Index>(dimension_) * node, dimension_);
+    });
+  if (elastic()) result -= (layer_.transpose() * l).eval().reshaped(dimension_, points_.weights.size());
+  return result;
+}
+
+void Tie::setRows(const Jumps& jumps, const TieOptions& options) {
+  const auto points = static_cast<Eigen::Index>(jumps.elements.size());
+  points_ = {jumps.elements, Eigen::Map<const Vector>(jumps.weights.data(), points),
+             Eigen::Map<const Vector>(jumps.sizes.data(), points)};
   const auto count = static_cast<Eigen::Index>(jumps.rowOf.size());
   Vector scale(count);
   for (Eigen::Index i = 0; i < count; ++i) scale[i] = 1 / jumps.lengths.at(static_cast<int>(i));
-  const ConstraintRows own = scale.asDiagonal() * assembled<ConstraintRows>(count, nodes1, jumps.nonmortar);
-  const ConstraintRows across = scale.asDiagonal() * assembled<ConstraintRows>(count, nodes2, jumps.mortar);
+  // Of the sides, and the row functions by points.
+  std::vector<ConstraintRows> values;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    sides_[k].traces = assembled(points, nodesOfSides_[k], jumps.traces[k]);
+    values.emplace_back(scale.asDiagonal() *
+                        assembled<ConstraintRows>(count, nodesOfSides_[k], jumps.sides[k]));
+  }
+  values.emplace_back(scale.asDiagonal() * assembled<ConstraintRows>(count, points, jumps.functions));
   // Directions of the rows of nodes, and which of them are held.
   const bool atNodes = pair_.coupling == CouplingKind::interpolation;
   std::vector<Eigen::Matrix3d> frames(count, Eigen::Matrix3d::Identity());
@@ -296,15 +486,16 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
   for (const auto& [key, row] : jumps.rowOf) ++parts[key.first];
   for (const auto& [key, row] : jumps.rowOf) {
     const int node = key.first;
-    if (options.frame) frames[row] = options.frame(node);
+    if (options.frame && options.along == std::array{true, true, true}) frames[row] = options.frame(node);
     const bool taken = parts[node] > 1 || (options.taken && options.taken(node));
     for (int c = 0; c < dimension_; ++c)
       held[row][c] = taken || isHeld(options.nonmortarHeld, node, frames[row].row(c)) ? 1 : 0;
   }
-  const auto moves = [&](const ConstraintRows& values, int row, const TieOptions::Held& by,
-                         const SpacePoint& d) {
-    for (ConstraintRows::InnerIterator entry(values, row); entry; ++entry)
-      if (!isHeld(by, static_cast<int>(entry.col()), d)) return true;
+  const auto moves = [&](int row, const SpacePoint& d) {
+    const std::array by{&options.nonmortarHeld, &options.mortarHeld, &options.offsetHeld};
+    for (size_t k = 0; k < sides_.size(); ++k)
+      for (ConstraintRows::InnerIterator entry(values[k], row); entry; ++entry)
+        if (!isHeld(*by[k], static_cast<int>(entry.col()), d)) return true;
     return false;
   };
   // A held direction goes to neighbours that are not held along it; it stays where there are none.
@@ -321,31 +512,40 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
   };
   std::vector<std::array<int, 3>> rowOf(count, std::array{-1, -1, -1});
   std::vector<std::array<std::vector<int>, 3>> goesTo(count);
+  std::vector<std::pair<int, int>> heldRows;  // and axes
   int rows = 0;
   std::set<int> done;
   for (const auto& [key, row] : jumps.rowOf) {
     const int node = key.first;
     const bool dropped = atNodes && ((options.taken && options.taken(node)) || !done.insert(node).second);
     for (int c = 0; c < dimension_; ++c) {
+      if (!options.along[c]) continue;
       const SpacePoint d = frames[row].row(c);
       if (held[row][c] != 0 && !atNodes) goesTo[row][c] = takers(row, d);
-      if (goesTo[row][c].empty() && !dropped &&
-          (moves(own, row, options.nonmortarHeld, d) || moves(across, row, options.mortarHeld, d)))
+      if (!goesTo[row][c].empty() || dropped) continue;
+      if (moves(row, d))
         rowOf[row][c] = rows++;
+      else if (options.kind == TieKind::kinematic)
+        heldRows.emplace_back(row, c);
     }
   }
-  Triplets entries1, entries2;
-  const auto add = [&](Triplets& entries, const ConstraintRows& values, int from, int to, const SpacePoint& d,
-                       double factor) {
-    for (ConstraintRows::InnerIterator entry(values, from); entry; ++entry)
-      for (int c = 0; c < dimension_; ++c)
-        if (const double value = factor * entry.value() * d[c]; value != 0)
-          entries.emplace_back(to, dimension_ * static_cast<int>(entry.col()) + c, value);
+  using Entries = std::vector<Triplets>;
+  const auto addRowTo = [&](Entries& into, int from, int to, const SpacePoint& d, double factor) {
+    for (size_t k = 0; k < values.size(); ++k)
+      for (ConstraintRows::InnerIterator entry(values[k], from); entry; ++entry)
+        for (int c = 0; c < dimension_; ++c)
+          if (const double value = factor * entry.value() * d[c]; value != 0)
+            into[k].emplace_back(to, dimension_ * static_cast<int>(entry.col()) + c, value);
   };
+  const auto rowsOf = [&](const Entries& of, size_t side, int number) {
+    return assembled<ConstraintRows>(number, static_cast<Eigen::Index>(dimension_) * nodesOfSides_[side],
+                                     of[side]);
+  };
+  Entries entries(values.size());
   const auto addRow = [&](int from, int to, const SpacePoint& d, double factor) {
-    add(entries1, own, from, to, d, factor);
-    add(entries2, across, from, to, d, factor);
+    addRowTo(entries, from, to, d, factor);
   };
+  Entries heldEntries(values.size());
   std::set<int> nodes;
   for (const auto& [key, row] : jumps.rowOf) {
     for (int c = 0; c < dimension_; ++c) {
@@ -364,8 +564,17 @@ void Tie::setRows(const Jumps& jumps, const TieOptions& options, int nodes1, int
     }
   }
   nodes_.assign(nodes.begin(), nodes.end());
-  C1_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes1, entries1);
-  C2_ = assembled<ConstraintRows>(rows, static_cast<Eigen::Index>(dimension_) * nodes2, entries2);
+  std::vector<int> nodeOf(count);
+  for (const auto& [key, row] : jumps.rowOf) nodeOf[row] = key.first;
+  for (const auto& [row, c] : heldRows) {
+    addRowTo(heldEntries, row, static_cast<int>(heldNodes_.size()), frames[row].row(c), 1);
+    heldNodes_.push_back(nodeOf[row]);
+  }
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    sides_[k].C = rowsOf(entries, k, rows);
+    heldRows_.push_back(rowsOf(heldEntries, k, static_cast<int>(heldNodes_.size())));
+  }
+  setCompliance(options.stiffness, assembled(rows, dimension_ * points, entries.back()), points_.weights);
 }
 
 }  // namespace mortier

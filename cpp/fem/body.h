@@ -48,6 +48,7 @@ struct RigidMotion {
   std::vector<Datum> force;          ///< of free motions [N/m], [N], in space [N], [N m]; may be empty
   bool turns = false;                ///< by finite angles
   std::vector<bool> whereItIs = {};  ///< by motions: held as in the state in which the run begins; or empty
+  bool surface = true;               ///< whether it has one; else ties alone take its motion
 };
 
 struct Conditions {
@@ -162,6 +163,8 @@ class Body {
   /// Whether it does not strain. Then it has no points, no tangent and no equations of nodes: its free dofs
   /// are the motions that are not prescribed, and gather() takes the work of nodal forces on them.
   [[nodiscard]] bool rigid() const { return conditions_.rigid.has_value(); }
+  /// Whether another body can touch it.
+  [[nodiscard]] bool hasSurface() const { return !rigid() || conditions_.rigid->surface; }
   /// These motions by dofs, [m] per unit. \pre rigid()
   [[nodiscard]] const Matrix& freeMotions() const { return freeMotions_; }
   /// Displacement at the reference point and angles of a rigid displacement (dofs). \pre rigid()

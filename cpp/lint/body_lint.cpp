@@ -94,6 +94,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
     faults.add("stiffness-ratio", input.where({"body", "material", "young"}, young < 1 ? i : j),
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);
+  if (one.point || two.point) return;
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
   double meant = 0;
   for (size_t k = 0; k < input.interference.size(); ++k)

@@ -174,6 +174,17 @@ Outline splineOutline(const std::vector<Point>& points) {
   return outline;
 }
 
+TriangleMesh triangleAt(const Point& place, double size) {
+  TriangleMesh mesh;
+  mesh.name = "point";
+  mesh.vertices = {place, place + Point(size, 0), place + Point(0, size)};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.regions = {1};
+  mesh.boundaryEdges = {{0, 1}, {1, 2}, {2, 0}};
+  mesh.boundaryLabels = {1, 1, 1};
+  return mesh;
+}
+
 TriangleMesh outlineMesh(const Outline& outline) {
   const auto n = static_cast<int>(outline.points.size());
   TriangleMesh mesh;

@@ -79,6 +79,10 @@ inline constexpr int roundLabel = 7;
 /// cuboid for plane sides, 7 "round" for the round one. \throws InputError unless sizes are positive.
 TetrahedronMesh roundMesh(const RoundBody& body);
 
+/// One triangle or tetrahedron with a right angle at a place, label and region 1.
+TriangleMesh triangleAt(const Point& place, double size);
+TetrahedronMesh tetrahedronAt(const SpacePoint& place, double size);
+
 using SpaceShape = std::variant<Cuboid, RoundBody>;
 inline TetrahedronMesh shapeMesh(const SpaceShape& shape) {
   if (const auto* round = std::get_if<RoundBody>(&shape)) return roundMesh(*round);

@@ -69,6 +69,19 @@ TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
   return boxMesh(cuboid, {0, 0, 0});
 }
 
+TetrahedronMesh tetrahedronAt(const SpacePoint& place, double size) {
+  TetrahedronMesh mesh;
+  mesh.name = "point";
+  mesh.vertices = {place};
+  for (int c = 0; c < 3; ++c) mesh.vertices.emplace_back(place + size * SpacePoint::Unit(c));
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.regions = {1};
+  mesh.boundaryTriangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  mesh.boundaryLabels.assign(mesh.boundaryTriangles.size(), 1);
+  validate(mesh);
+  return mesh;
+}
+
 TetrahedronMesh roundMesh(const RoundBody& body) {
   if (!(body.radius > 0) || !(body.height > 0)) throw InputError("a round body without volume");
   const auto& [across, along] = body.cells;

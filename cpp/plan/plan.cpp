@@ -142,7 +142,7 @@ class Planner {
   void planContact() {
     for (size_t k = 0; k < model_.ties.size(); ++k)
       add("tie " + std::to_string(k), true,
-          "tie by " + word(scene_.ties[k].variant) + " at " +
+          "tie by " + wordOfTie(scene_.ties[k]) + " at " +
               counted(model_.ties[k].nonmortarNodes().size(), "node") + " of " +
               model_.bodies[model_.ties[k].pair().nonmortar.body].name(),
           "its sides move as one" + std::string(scene_.ties[k].choice.empty() ? "" : "; ") +

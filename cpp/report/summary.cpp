@@ -90,7 +90,7 @@ Json ties(const RunFacts& facts, const Model& model, const State& state) {
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
     const ContactPair& pair = tie.pair();
-    const Vector forces = -(tie.C1().transpose() * state.tieForce[k]);
+    const Vector forces = -(tie.sides().front().C.transpose() * state.tieForce[k]);
     SpacePoint sum = SpacePoint::Zero();
     for (Eigen::Index dof = 0; dof < forces.size(); ++dof) sum[dof % tie.dimension()] += forces[dof];
     list.push_back({{"variant", facts.ties[k]},

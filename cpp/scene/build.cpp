@@ -42,6 +42,31 @@ ContactPair pairOf(const SceneDescription& scene, const ContactDescription& cont
   return {side(contact.nonmortar()), side(contact.mortar()), contact.variant};
 }
 
+/// Where a support and the motion of a tool both prescribe what a node does. \throws InputError
+void requireOneMotion(const Model& model, const Tie& tie, const std::vector<double>& times) {
+  constexpr double rounding = 1e-9;
+  if (tie.heldNodes().empty()) return;
+  for (const double t : times) {
+    std::vector<Vector> u;
+    double largest = 0;
+    for (const Body& body : model.bodies) {
+      u.emplace_back(Vector::Zero(body.dofs()));
+      body.prescribe(t, u.back());
+      largest = std::max(largest, u.back().lpNorm<Eigen::Infinity>());
+    }
+    Eigen::Index row = 0;
+    const double off = tie.heldJump(u).cwiseAbs().maxCoeff(&row);
+    if (off <= rounding * largest) continue;
+    const Body& body = model.bodies[tie.pair().nonmortar.body];
+    const SpacePoint x = body.placeOfNode(tie.heldNodes()[static_cast<size_t>(row)]);
+    throw InputError("the supports of body " + body.name() + " and the motion of tool " +
+                     model.bodies[tie.pair().mortar.body].name() + " differ by " + digits(off, 3) + " at (" +
+                     digits(x.x()) + ", " + digits(x.y()) +
+                     (body.dimension() == 3 ? ", " + digits(x.z()) : "") + "), t = " + digits(t) +
+                     ", expected one of them or the same displacement");
+  }
+}
+
 }  // namespace
 
 Model buildModel(ResolvedScene& scene) {
@@ -66,7 +91,13 @@ Model buildModel(ResolvedScene& scene) {
   for (const ContactDescription& tie : description.ties) {
     stopIfInterrupted();
     addAt(tie, [&] {
-      addTie(model, pairOf(description, tie));
+      TieOptions options;
+      options.kind = tie.tieKind;
+      options.along = tie.along;
+      options.stiffness = tie.stiffness;
+      addTie(model, pairOf(description, tie), options,
+             tie.offset.empty() ? -1 : bodyIndex(description, tie.offset));
+      if (description.start.empty()) requireOneMotion(model, model.ties.back(), times);
       requireMemory(memoryNeed(model, description.solver), false);
     });
   }

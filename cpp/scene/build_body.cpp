@@ -108,6 +108,7 @@ Body buildTool(const BodyDescription& tool, Mesh mesh, const SceneDescription& s
     motion.force.push_back(held ? Datum() : finiteValue(c.value, inSpace));
     motion.whereItIs.push_back(c.whereItIs);
   }
+  motion.surface = !tool.point;
   motion.turns = tool.turns() && isFollowed(scene, tool.name);
   Conditions conditions;
   conditions.rigid = std::move(motion);

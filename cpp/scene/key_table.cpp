@@ -154,7 +154,8 @@ ux, uy, uz | m | free | datum, or `"held"`; one of them at least | prescribed di
   `dimension = 3`
 [tool] `[[tool]]` | | none | any number | a rigid body, without material ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
-shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
+shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"`, `"point"` | of its outline; a point has
+  none, ties take its motion ([below](#couplings-springs-and-bolts)); with `dimension = 3` a point alone
 points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
   the spline goes through; the tool lies to the left of the polyline
 labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides, from the first corner on
@@ -203,6 +204,12 @@ sliding | | `"refuse"` | `"refuse"`, `"allow"`, `"finite"` | slips are taken as 
   pressed slides past the end of the line that it touches, by more than an edge and a tenth of that line, the
   run ends (exit code 1, with the state so far in `DIR.failed`), or goes on; with `"finite"` contact follows
   the bodies, however far they slide ([below](#finite-sliding))
+coupling | | `"kinematic"` | `"kinematic"`, `"distributing"` | of a tie to a tool of shape `"point"`: each node
+  of the side follows it, or their weighted mean motion does ([below](#couplings-springs-and-bolts))
+along | | all | a list of `"x"`, `"y"`, `"z"` | of a tie: the axes along which sides move as one
+stiffness | N/m^3 | rigid | > 0 | of a tie: traction over the distance that it makes, of a layer of glue or of
+  springs
+offset | | none | the name of a tool of shape point | of a tie: the sides move apart by its motion
 [contact.sides contact.nonmortar contact.mortar]
 body, label
 [quantity] `[[quantity]]` | | none | any number | a number of every step, in `history.csv`, the log and

@@ -8,8 +8,11 @@ namespace mortier {
 
 namespace {
 
+enum TieCoupling { kinematic, distributing };
+
 /// Of a tool whose outline has one, but for what closes it.
 std::optional<int> onlyLabel(const BodyDescription& tool) {
+  if (tool.point) return 1;
   if (!tool.isTool() || !tool.mesh.shape || tool.mesh.path == "rectangle") return std::nullopt;
   const std::vector<int>& labels = std::get<Outline>(tool.mesh.shape->of).labels;
   if (tool.mesh.path == "polygon" &&
@@ -102,6 +105,45 @@ void refuseBesideTies(const TableReader& table, const SceneDescription& scene) {
   refuse(scene.accuracy.bound, "accuracy.bound");
 }
 
+/// What follows what, and through which stiffness.
+void readTie(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
+  const bool toPoint = scene.bodies[bodyIndex(scene, contact.mortar().body)].point;
+  if (!contact.tied) {
+    if (toPoint) table.reject("kind", "\"tied\" beside a tool of shape \"point\", which has no surface");
+    table.rejectIfGiven({"coupling", "along", "stiffness", "offset"}, "it beside kind = \"tied\" only");
+    return;
+  }
+  if (!toPoint) table.rejectIfGiven({"coupling"}, "it beside a tool of shape \"point\" only");
+  if (toPoint) {
+    contact.tieKind =
+        table.choice<TieCoupling>("coupling") == kinematic ? TieKind::kinematic : TieKind::distributing;
+    table.rejectIfGiven({"variant"}, "none beside a tool of shape \"point\": coupling says what follows it");
+  }
+  if (const std::vector<std::string> axes = table.strings("along"); table.has("along")) {
+    contact.along.fill(false);
+    const Keys known = scene.inSpace() ? Keys{"x", "y", "z"} : Keys{"x", "y"};
+    for (const std::string& axis : axes) {
+      const auto found = std::find(known.begin(), known.end(), axis);
+      if (found == known.end()) table.reject("along", "a list of " + joined(known));
+      contact.along[found - known.begin()] = true;
+    }
+    if (axes.empty()) table.reject("along", "one of " + joined(known) + " at least");
+  }
+  if (table.has("stiffness")) {
+    contact.stiffness = table.number("stiffness");
+    const bool atNodes =
+        contact.tieKind == TieKind::kinematic || contact.variant == CouplingKind::interpolation;
+    if (atNodes)
+      table.reject("stiffness", toPoint ? "it beside coupling = \"distributing\""
+                                        : "it beside variant = \"mortar\" or \"weighted\"");
+  }
+  if (!table.has("offset")) return;
+  contact.offset = table.string("offset");
+  const int tool = bodyIndex(scene, contact.offset);
+  if (tool < 0 || !scene.bodies[tool].point) table.reject("offset", "the name of a tool of shape \"point\"");
+  if (toPoint) table.reject("offset", "none beside a tool as a side: give that its motion");
+}
+
 /// Conditions are stabilised where the scene leaves the choice of rows to the program; ties never are.
 void readStabilised(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
   const bool other = contact.tied || contact.variant == CouplingKind::interpolation || scene.accuracy.bound;
@@ -125,6 +167,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   if (contact.tied) refuseBesideTies(table, scene);
   const auto variant = scene.degree == 1 && !scene.inSpace() ? CouplingKind::mortar : CouplingKind::weighted;
   contact.variant = table.choice<CouplingKind>("variant", variant);
+  readTie(table, scene, contact);
   readStabilised(table, scene, contact);
   contact.initial = table.choice<InitialGap>("initial");
   contact.gap = table.datum("gap");

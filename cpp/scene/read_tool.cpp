@@ -30,8 +30,9 @@ std::vector<Point> distinctPoints(const TableReader& table, size_t least, size_t
   return points;
 }
 
+enum Family { line, disc, rectangle, polygon, spline, point };
+
 Outline readOutline(const TableReader& table, bool axisymmetric) {
-  enum Family { line, disc, rectangle, polygon, spline };
   constexpr size_t mostCorners = 1000;
   constexpr size_t mostPoints = 100;  // of a spline
   const auto family = table.choice<Family>("shape");
@@ -130,10 +131,18 @@ BodyDescription readTool(const Node& node, const SceneDescription& scene, size_t
     readMeshSource(table, scene.path, tool);
     if (tool.mesh.shape && !scene.inSpace())
       table.reject("mesh", "a file, or shape and its keys in place of mesh");
+  } else if (table.has("shape") && table.choice<Family>("shape") == point) {
+    table.requireBeside("shape", "point");
+    static_cast<void>(table.require("at", "the place of the point"));
+    tool.point = true;
+    tool.meshWhere = table.find("shape")->where;
+    tool.mesh.path = table.string("shape");
   } else if (scene.inSpace()) {
+    table.rejectIfGiven({"shape"}, "\"point\", or mesh in its place");
     static_cast<void>(table.require("mesh", "a file, or a shape of a body in space"));
   } else {
-    static_cast<void>(table.require("shape", "\"line\", \"disc\", \"rectangle\", \"polygon\" or \"spline\""));
+    static_cast<void>(
+        table.require("shape", "\"line\", \"disc\", \"rectangle\", \"polygon\", \"spline\" or \"point\""));
     Outline outline = readOutline(table, axisymmetric);
     outline.name = "outline of " + tool.name;
     // Where the outline says nothing else: in the middle of its extents.

@@ -164,9 +164,33 @@ Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::strin
 
 namespace {
 
+void placeAt(const SpacePoint& place, double size, TriangleMesh& mesh) {
+  mesh = triangleAt(place.head<2>(), size);
+}
+void placeAt(const SpacePoint& place, double size, TetrahedronMesh& mesh) {
+  mesh = tetrahedronAt(place, size);
+}
+
+/// Tools that are points get a size at which they are seen beside the bodies. \param meshes  none where unknown
+template <class Mesh>
+void sizePoints(const SceneDescription& scene, const std::vector<Mesh*>& meshes) {
+  constexpr double part = 0.05;
+  double largest = 0;
+  for (size_t b = 0; b < meshes.size(); ++b)
+    if (meshes[b] != nullptr && !scene.bodies[b].point) largest = std::max(largest, extent(*meshes[b]));
+  for (size_t b = 0; b < meshes.size() && largest > 0; ++b)
+    if (meshes[b] != nullptr && scene.bodies[b].point)
+      placeAt(*scene.bodies[b].reference, part * largest, *meshes[b]);
+}
+
 /// \param read  readMesh or readSpaceMesh
 template <class Read>
 auto meshBy(const Read& read, const BodyDescription& body) {
+  if (body.point) {
+    decltype(read(body.mesh)) mesh;
+    placeAt(*body.reference, 1, mesh);
+    return mesh;
+  }
   try {
     return read(body.mesh);
   } catch (const InputError& error) {
@@ -187,6 +211,9 @@ ResolvedScene resolveScene(SceneDescription scene) {
   SceneDescription& description = resolved.description;
   const auto read = [&](const auto& by, auto& meshes) {
     for (const BodyDescription& body : description.bodies) meshes.push_back(meshBy(by, body));
+    std::vector<std::remove_reference_t<decltype(meshes.front())>*> pointers;
+    for (auto& mesh : meshes) pointers.push_back(&mesh);
+    sizePoints(description, pointers);
     findPlaces(description, meshes);
   };
   if (description.inSpace()) {
@@ -201,6 +228,7 @@ ResolvedScene resolveScene(SceneDescription scene) {
 }
 
 std::vector<InputError> resolveWhatCanBe(SceneDescription& scene, const std::vector<TriangleMesh*>& meshes) {
+  sizePoints(scene, meshes);
   constexpr int none = -2;
   const auto number = [&](std::map<std::string, int> TriangleMesh::*names) {
     return [&meshes, names](int body, int& label, const std::string& name, const std::string& /*where*/) {

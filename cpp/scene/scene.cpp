@@ -168,7 +168,7 @@ void requireToolsTouch(const SceneDescription& scene) {
   for (const BodyDescription& tool : scene.bodies) {
     std::vector<const ContactDescription*> contacts;
     forEachPair(scene, [&](const ContactDescription& contact) {
-      if (contact.mortar().body == tool.name) contacts.push_back(&contact);
+      if (contact.mortar().body == tool.name || contact.offset == tool.name) contacts.push_back(&contact);
     });
     const std::string subject = tool.where + ": tool " + tool.name + ": ";
     if (tool.isTool() && contacts.empty())
@@ -323,6 +323,10 @@ std::string word(Plane plane) {
 }
 std::string word(CouplingKind kind) {
   return keyAt("contact", "variant").words[static_cast<size_t>(kind)];
+}
+std::string wordOfTie(const ContactDescription& tie) {
+  if (tie.tieKind == TieKind::surface) return word(tie.variant);
+  return keyAt("contact", "coupling").words[tie.tieKind == TieKind::kinematic ? 0 : 1];
 }
 std::string word(Projection projection) {
   return keyAt("body.material", "projection").words[static_cast<size_t>(projection)];

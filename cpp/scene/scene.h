@@ -12,6 +12,7 @@
 
 #include "base/units.h"
 #include "contact/interface.h"
+#include "contact/tie.h"
 #include "material/anisotropy.h"
 #include "material/norton.h"
 #include "material/overstress.h"
@@ -124,6 +125,8 @@ struct BodyDescription {
   std::optional<SpacePoint> reference = {};
   std::string where;
 
+  bool point = false;  ///< a tool without a surface, for ties
+
   /// Whether it is a tool that a datum may turn.
   [[nodiscard]] bool turns() const;
   [[nodiscard]] bool isTool() const { return reference.has_value(); }
@@ -161,6 +164,11 @@ struct ContactDescription {
   std::optional<Expression> gap;  ///< [m]
   Friction friction;
   SlidingKind sliding = SlidingKind::refuse;
+  // Of ties (contact/tie.h).
+  TieKind tieKind = TieKind::surface;
+  std::array<bool, 3> along{true, true, true};
+  double stiffness = 0;  ///< 0: rigid [N/m^3]
+  std::string offset;    ///< the tool that moves the sides apart; empty: none
   std::string where;
 
   [[nodiscard]] const SideDescription& nonmortar() const { return sides[nonmortarSide.value_or(0)]; }
@@ -242,6 +250,8 @@ void forEachPair(Scene& scene, const Visit& visit) {
 /// Words of the scene for what a scene can choose.
 std::string word(Plane plane);
 std::string word(CouplingKind kind);
+/// Of a tie: "kinematic" or "distributing", else that of its rows.
+std::string wordOfTie(const ContactDescription& tie);
 std::string word(Projection projection);
 std::string word(Scheme scheme);
 

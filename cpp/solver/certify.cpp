@@ -146,10 +146,8 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       if (contactForce.value() != 0) complementarity.add(p[i] / contactForce.value() * off);
     }
   }
-  for (const Tie& tie : model_.ties) {
-    const Vector jump = tie.jump(u[tie.pair().nonmortar.body], u[tie.pair().mortar.body]);
+  for (const Vector& jump : jumps(model_, step.state0, iterate))
     gapOnActive.add(jump.lpNorm<Eigen::Infinity>() / length.value());
-  }
   Worst own;
   for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));
   const double balance = own.value();

@@ -17,23 +17,25 @@ constexpr double motionTolerance = 1e-14;
 /// A support along the contact normal leaves no more than this part of a row.
 constexpr double negligibleShare = 1e-14;
 
-/// Entries of the rows of an interface on one body as (row, node, vector).
-template <class Interface, class Visit>
-void forEachEntry(const Interface& interface, int body, const ConstraintRows& nonmortar,
+/// Entries of rows on a body as (row, node, vector).
+template <class Visit>
+void forEachNode(const ConstraintRows& C, int dimension, Visit visit) {
+  for (int row = 0; row < C.rows(); ++row)
+    for (ConstraintRows::InnerIterator entry(C, row); entry;) {
+      const int node = static_cast<int>(entry.col()) / dimension;
+      SpacePoint vector = SpacePoint::Zero();
+      for (; entry && entry.col() / dimension == node; ++entry)
+        vector[entry.col() % dimension] = entry.value();
+      visit(row, node, vector);
+    }
+}
+
+/// The same of the rows of an interface.
+template <class Visit>
+void forEachEntry(const ContactInterface& interface, int body, const ConstraintRows& nonmortar,
                   const ConstraintRows& mortar, Visit visit) {
-  const int dimension = interface.dimension();
-  const auto visitAll = [&](const ConstraintRows& C) {
-    for (int row = 0; row < C.rows(); ++row)
-      for (ConstraintRows::InnerIterator entry(C, row); entry;) {
-        const int node = static_cast<int>(entry.col()) / dimension;
-        SpacePoint vector = SpacePoint::Zero();
-        for (; entry && entry.col() / dimension == node; ++entry)
-          vector[entry.col() % dimension] = entry.value();
-        visit(row, node, vector);
-      }
-  };
-  if (interface.pair().nonmortar.body == body) visitAll(nonmortar);
-  if (interface.pair().mortar.body == body) visitAll(mortar);
+  if (interface.pair().nonmortar.body == body) forEachNode(nonmortar, interface.dimension(), visit);
+  if (interface.pair().mortar.body == body) forEachNode(mortar, interface.dimension(), visit);
 }
 
 /// A rigid body has no equations of nodes: contact takes the dofs themselves, which its motions move.
@@ -69,7 +71,8 @@ void forEachEquation(const Model& model, int body, const std::vector<int>& first
     rows += interface.slipRows();
   }
   for (const Tie& tie : model.ties) {
-    forEachEntry(tie, body, tie.C1(), tie.C2(), visitParts(rows));
+    for (const TieSide& side : tie.sides())
+      if (side.body == body) forEachNode(side.C, tie.dimension(), visitParts(rows));
     rows += tie.rows();
   }
 }

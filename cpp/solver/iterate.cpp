@@ -1,6 +1,7 @@
 #include "solver/iterate.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "solver/state.h"
@@ -122,12 +123,18 @@ double gapWork(const State& state0, const Iterate& solution) {
   return work;
 }
 
-std::vector<Vector> jumps(const Model& model, const Iterate& iterate) {
+std::vector<Vector> jumps(const Model& model, const State& state0, const Iterate& iterate) {
   std::vector<Vector> result;
-  for (const Tie& tie : model.ties) {
-    const TwoPartVector& u1 = iterate.bodies[tie.pair().nonmortar.body].increment;
-    const TwoPartVector& u2 = iterate.bodies[tie.pair().mortar.body].increment;
-    result.emplace_back(tie.jump(u1.high, u2.high) + tie.jump(u1.low, u2.low));
+  if (model.ties.empty()) return result;
+  std::array<std::vector<Vector>, 2> increments;
+  for (const BodyIterate& body : iterate.bodies) {
+    increments[0].push_back(body.increment.high);
+    increments[1].push_back(body.increment.low);
+  }
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    result.emplace_back(tie.jump(increments[0]) + tie.jump(increments[1]));
+    if (tie.elastic()) result.back() -= tie.yielded(iterate.tieForce[k] - state0.tieForce[k]);
   }
   return result;
 }

@@ -100,8 +100,8 @@ std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& ga
 /// [J/m].
 double gapWork(const State& state0, const Iterate& solution);
 
-/// C du per tie [m].
-std::vector<Vector> jumps(const Model& model, const Iterate& iterate);
+/// C du - S dl per tie: what is left of its rows [m].
+std::vector<Vector> jumps(const Model& model, const State& state0, const Iterate& iterate);
 
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);

@@ -157,13 +157,12 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
   });
 }
 
-void addTie(Model& model, const ContactPair& pair) {
+void addTie(Model& model, const ContactPair& pair, TieOptions options, int offset) {
   const BodiesOfPair both = bodiesOf(model, pair);
   std::set<int> taken;
   for (const Tie& other : model.ties)
     if (other.pair().nonmortar.body == pair.nonmortar.body)
       taken.insert(other.nonmortarNodes().begin(), other.nonmortarNodes().end());
-  TieOptions options;
   options.nonmortarHeld = [&](int node, const SpacePoint& d) { return holds(both.nonmortar, node, d); };
   options.mortarHeld = [&](int node, const SpacePoint& d) { return holds(both.mortar, node, d); };
   options.taken = [&](int node) { return taken.contains(node); };
@@ -172,6 +171,11 @@ void addTie(Model& model, const ContactPair& pair) {
     return turned == nullptr ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : *turned;
   };
   options.axisymmetric = both.nonmortar.axisymmetric();
+  if (offset >= 0) {
+    const Body& third = model.bodies[offset];
+    options.offsetHeld = [&](int node, const SpacePoint& d) { return holds(third, node, d); };
+    withMeshes({third, third}, [&](const auto& mesh, const auto&) { options.offset.emplace(offset, mesh); });
+  }
   withMeshes(both, [&](const auto& nonmortar, const auto& mortar) {
     model.ties.emplace_back(pair, nonmortar, mortar, options);
   });

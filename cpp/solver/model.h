@@ -32,8 +32,8 @@ bool holds(const Body& body, int node, const SpacePoint& direction);
 /// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
 /// \throws InputError
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options = {});
-/// Adds a tie. \throws InputError
-void addTie(Model& model, const ContactPair& pair);
+/// Adds a tie. \param offset  the third body, -1 for none \throws InputError
+void addTie(Model& model, const ContactPair& pair, TieOptions options = {}, int offset = -1);
 
 enum class LinearEngine {
   multifrontal,  ///< our own, SuiteSparse where it fails

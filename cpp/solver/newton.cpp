@@ -86,7 +86,7 @@ StepSystem::Linearised searchLine(StepSystem& system, const Step& step, double w
   double overlap = 0;
   const std::vector<Vector> gapsBefore = gaps(model, step.gap0(), before);
   for (size_t k = 0; k < gapsBefore.size(); ++k) overlap += end.contactForce[k].dot(gapsBefore[k]);
-  const std::vector<Vector> jumpsBefore = jumps(model, before);
+  const std::vector<Vector> jumpsBefore = jumps(model, step.state0, before);
   for (size_t k = 0; k < jumpsBefore.size(); ++k) overlap += end.tieForce[k].dot(jumpsBefore[k]);
   const auto slope = [&](const std::vector<Matrix>& stress) {
     double work = 0;

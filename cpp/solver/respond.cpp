@@ -7,6 +7,28 @@
 #include "solver/step_system.h"
 
 namespace mortier {
+namespace {
+
+/// Forces across contact, per interface, and of ties [N/m].
+struct ConstraintForces {
+  std::vector<Vector> contact, ties;
+
+  void add(double factor, const ConstraintForces& other) {
+    for (size_t k = 0; k < contact.size(); ++k) contact[k] += factor * other.contact[k];
+    for (size_t k = 0; k < ties.size(); ++k) ties[k] += factor * other.ties[k];
+  }
+  /// p' S p
+  [[nodiscard]] double stored(const Model& model) const {
+    double sum = 0;
+    for (size_t k = 0; k < contact.size(); ++k)
+      sum += contact[k].dot(model.interfaces[k].yielded(contact[k]));
+    for (size_t k = 0; k < ties.size(); ++k) sum += ties[k].dot(model.ties[k].yielded(ties[k]));
+    return sum;
+  }
+};
+
+}  // namespace
+
 std::vector<Response> StepSystem::Factorised::respond(const LinearLoad& to, const Iterate& on) const {
   const Model& model = system_->model_;
   std::vector<CondensedBody>& bodies = system_->bodies_;
@@ -78,8 +100,9 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
                  [&](int begin, int end) { model.bodies[b].addStressOf(d[b], law, stress[b], begin, end); });
     return model.bodies[b].internalForce(stress[b]);
   };
-  const bool yields = std::ranges::any_of(model.interfaces, &ContactInterface::yields);
-  std::vector<Vector> contactAlong;
+  const bool yields = std::ranges::any_of(model.interfaces, &ContactInterface::yields) ||
+                      std::ranges::any_of(model.ties, &Tie::elastic);
+  ConstraintForces forcesAlong;
   std::vector<Vector> forceAlong(count);
   std::vector<double> forces(count);
   system_->forEachBody([&](int b) {
@@ -105,32 +128,30 @@ bool StepSystem::Factorised::complete(const Step& step, const Iterate& before, d
     const ContactSolution closed =
         system_->holdClosed(contact, {std::move(slack), Vector::Zero(system_->firstMotion_.back())});
     system_->expandBodies(closed, [&](int b, const Vector& d) { motion[b] = d; });
-    std::vector<Vector> change = system_->parted(closed.change);
-    const auto move = [&](const std::vector<Vector>& by) {
-      system_->subtractContact(by, {}, residual);
-      for (size_t k = 0; k < by.size(); ++k) iterate.contactForce[k] += by[k];
+    ConstraintForces change{system_->parted(closed.change), system_->tiesOf(closed.change)};
+    const auto move = [&](const ConstraintForces& by) {
+      system_->subtractContact(by.contact, {}, residual);
+      system_->subtractTies(by.ties, residual);
+      for (size_t k = 0; k < by.contact.size(); ++k) iterate.contactForce[k] += by.contact[k];
+      for (size_t k = 0; k < by.ties.size(); ++k) iterate.tieForce[k] += by.ties[k];
     };
     if (!yields) move(change);
-    const std::vector<Vector> tieChange = system_->tiesOf(closed.change);
-    system_->subtractTies(tieChange, residual);
-    for (size_t k = 0; k < tieChange.size(); ++k) iterate.tieForce[k] += tieChange[k];
     const double size = dot(motion, residual);
     if (!(size > enough) || largest <= noise) return size <= enough || largest <= noise;
     if (iteration == most) return false;
     for (size_t b = 0; b < count; ++b)
       along[b] = iteration == 0 ? motion[b] : Vector(motion[b] + size / last * along[b]);
-    for (size_t k = 0; k < change.size() && iteration > 0; ++k) change[k] += size / last * contactAlong[k];
-    contactAlong = std::move(change);
+    if (iteration > 0) change.add(size / last, forcesAlong);
+    forcesAlong = std::move(change);
     last = size;
     system_->forEachBody([&](int b) { forceAlong[b] = stressAlong(along, b); });
     double curvature = dot(along, forceAlong);
-    for (size_t k = 0; k < contactAlong.size() && yields; ++k)
-      curvature += contactAlong[k].dot(model.interfaces[k].yielded(contactAlong[k]));
+    if (yields) curvature += forcesAlong.stored(model);
     const double length = size / curvature;
     if (yields) {
-      for (Vector& each : contactAlong) each *= length;
-      move(contactAlong);
-      for (Vector& each : contactAlong) each /= length;
+      ConstraintForces moved = forcesAlong;
+      moved.add(length - 1, forcesAlong);
+      move(moved);
     }
     system_->forEachBody([&](int b) {
       residual[b] -= length * forceAlong[b];

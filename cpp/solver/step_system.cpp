@@ -122,10 +122,7 @@ void StepSystem::subtractContact(const std::vector<Vector>& p, const std::vector
 }
 
 void StepSystem::subtractTies(const std::vector<Vector>& l, std::vector<Vector>& force) const {
-  for (size_t k = 0; k < model_.ties.size(); ++k) {
-    const ContactPair& pair = model_.ties[k].pair();
-    model_.ties[k].subtractForces(l[k], force[pair.nonmortar.body], force[pair.mortar.body]);
-  }
+  for (size_t k = 0; k < model_.ties.size(); ++k) model_.ties[k].subtractForces(l[k], force);
 }
 
 std::vector<Vector> StepSystem::tiesOf(const Vector& all) const {
@@ -207,10 +204,15 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
       contact.symmetric = contact.symmetric && system_->model_.bodies[b].material().symmetricTangent();
       bodies[b].addCompliance(W);
     }
-    for (size_t k = 0; k < system_->model_.interfaces.size(); ++k) {
-      const int first = system_->firstRow_[k];
-      forEachEntry(system_->model_.interfaces[k].compliance(),
-                   [&](int row, int column, double value) { W(first + row, first + column) += value; });
+    const auto addYielding = [&](int first, const Eigen::SparseMatrix<double>& S) {
+      forEachEntry(S, [&](int row, int column, double value) { W(first + row, first + column) += value; });
+    };
+    for (size_t k = 0; k < system_->model_.interfaces.size(); ++k)
+      addYielding(system_->firstRow_[k], system_->model_.interfaces[k].compliance());
+    int first = system_->conditions();
+    for (const Tie& tie : system_->model_.ties) {
+      if (tie.elastic()) addYielding(first, tie.compliance());
+      first += tie.rows();
     }
     contact.W = system_->ties_.take(std::move(W), contact.symmetric);
   }
@@ -236,8 +238,8 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   system_->subtractTies(iterate.tieForce, force);
   Condensed result(*system_, Key{});
   auto& [slack, balance] = result.whole;
-  slack = joined(
-      {-joined(gaps(model, step.gap0(), iterate), slips(model, iterate)), -joined(jumps(model, iterate))});
+  slack = joined({-joined(gaps(model, step.gap0(), iterate), slips(model, iterate)),
+                  -joined(jumps(model, step.state0, iterate))});
   result.p0 = joined(iterate.contactForce, iterate.frictionForce);
   result.sets = joinedSets(iterate);
   std::vector<Vector> motion;

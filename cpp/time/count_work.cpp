@@ -112,13 +112,19 @@ void StepTaker::countWork() {
     work.dissipated += dissipated(b);
     work.thermal -= thermal;
   }
-  // Of what contact does: friction dissipates, distances that change and conditions that yield do work.
+  // Of what contact does: friction dissipates, distances that change do work, conditions and ties that yield
+  // store it.
   const std::vector<double> friction = dissipatedByFriction();
   double work = gapWork(state_, end) - std::accumulate(friction.begin(), friction.end(), 0.0);
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const Vector& p0 = state_.contactForce[k];
     const Vector& p1 = end.contactForce[k];
     if (model_.interfaces[k].yields()) work -= (p0 + p1).dot(model_.interfaces[k].yielded(p1 - p0)) / 2;
+  }
+  for (size_t k = 0; k < model_.ties.size(); ++k) {
+    const Vector& l0 = state_.tieForce[k];
+    const Vector& l1 = end.tieForce[k];
+    if (model_.ties[k].elastic()) work -= (l0 + l1).dot(model_.ties[k].yielded(l1 - l0)) / 2;
   }
   double all = 0;
   for (const double each : external) all += std::abs(each);

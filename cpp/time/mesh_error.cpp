@@ -102,12 +102,13 @@ std::vector<ErrorEstimate> MeshErrorEstimator::operator()(const State& state, Th
 }
 
 void MeshErrorEstimator::addTies(const State& state, std::vector<ErrorEstimate>& estimates) const {
-  for (const Tie& tie : model_.ties) {
+  const std::vector<Vector> u = displacementsOf(state);
+  for (size_t k = 0; k < model_.ties.size(); ++k) {
+    const Tie& tie = model_.ties[k];
     const int nonmortar = tie.pair().nonmortar.body;
     const int mortar = tie.pair().mortar.body;
     const TiePoints& points = tie.points();
-    const Matrix jump =
-        points.jump(state.bodies[nonmortar].displacement, state.bodies[mortar].displacement, tie.dimension());
+    const Matrix jump = tie.jumpAtPoints(u, state.tieForce[k]);
     for (Eigen::Index i = 0; i < jump.cols(); ++i) {
       const auto& [own, opposite] = points.elements[i];
       const Compliance compliance =

@@ -9,13 +9,19 @@ bool is(const ContactSide& side, int body, std::optional<int> label) {
 
 }  // namespace
 
+bool isTieSide(const Tie& tie, size_t side, int body, std::optional<int> label) {
+  if (side == 0) return is(tie.pair().nonmortar, body, label);
+  if (side == 1) return is(tie.pair().mortar, body, label);
+  return tie.sides()[side].body == body && !label;
+}
+
 Vector contactForces(const Model& model, const InterfaceForces& given, int body, std::optional<int> label) {
   const auto& [p, t, l] = given;
   Vector forces = Vector::Zero(model.bodies[body].dofs());
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
-    if (is(tie.pair().nonmortar, body, label)) forces += tie.C1().transpose() * l[k];
-    if (is(tie.pair().mortar, body, label)) forces += tie.C2().transpose() * l[k];
+    for (size_t side = 0; side < tie.sides().size(); ++side)
+      if (isTieSide(tie, side, body, label)) forces += tie.sides()[side].C.transpose() * l[k];
   }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];

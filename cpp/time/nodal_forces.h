@@ -25,6 +25,9 @@ inline InterfaceForces forcesOf(const State& state) {
 Vector contactForces(const Model& model, const InterfaceForces& forces, int body,
                      std::optional<int> label = std::nullopt);
 
+/// Whether a side of a tie (Tie::sides) is the body, by this label of it.
+bool isTieSide(const Tie& tie, size_t side, int body, std::optional<int> label);
+
 /// Whether the label of a body is a side of the pair.
 bool isSide(const ContactPair& pair, int body, std::optional<int> label = std::nullopt);
 

@@ -27,15 +27,12 @@ OverlapCheck::OverlapCheck(const Model& model) : model_(model) {
     }
   }
   for (const Tie& tie : model.ties) {
-    std::array<std::set<int>, 2> nodes;
-    const auto addTo = [&](std::set<int>& to) {
-      return [&](int, int dof, double) { to.insert(dof / tie.dimension()); };
-    };
-    forEachEntry(tie.C1(), addTo(nodes[0]));
-    forEachEntry(tie.C2(), addTo(nodes[1]));
-    const auto& [nonmortar, mortar, coupling] = tie.pair();
-    tiedNodes_.push_back({{static_cast<size_t>(nonmortar.body), {nodes[0].begin(), nodes[0].end()}},
-                          {static_cast<size_t>(mortar.body), {nodes[1].begin(), nodes[1].end()}}});
+    std::map<size_t, std::vector<int>>& nodes = tiedNodes_.emplace_back();
+    for (size_t k = 0; k < 2; ++k) {
+      std::set<int> of;
+      forEachEntry(tie.sides()[k].C, [&](int, int dof, double) { of.insert(dof / tie.dimension()); });
+      nodes[static_cast<size_t>(tie.sides()[k].body)] = {of.begin(), of.end()};
+    }
   }
   for (const ContactInterface& interface : model.interfaces) {
     const ContactPair& pair = interface.pair();
@@ -227,6 +224,7 @@ BodyOverlap OverlapCheck::find(const std::vector<Vector>& u, const std::vector<V
   for (size_t one = 0; one < u.size(); ++one)
     for (size_t other = one + 1; other < u.size(); ++other) {
       if (body(one).rigid() && body(other).rigid()) continue;
+      if (!body(one).hasSurface() || !body(other).hasSurface()) continue;
       if (places.apart(one, other)) continue;
       if (turnsOver(one, places) || turnsOver(other, places)) continue;
       const std::vector<Between> contacts = between(one, other, places, force, time);

@@ -4,6 +4,8 @@
 
 #include "time/quantity_motion.h"
 
+#include "time/nodal_forces.h"
+
 namespace mortier {
 namespace {
 
@@ -75,10 +77,9 @@ Vector motionOf(const Quantity& quantity, const Model& model) {
   std::vector<int> nodes = body.boundaryNodes(label);
   // Rows of ties act on nodes behind a side that is apart from the other one, too.
   for (const Tie& tie : model.ties)
-    for (const auto& [side, C] :
-         {std::pair(&tie.pair().nonmortar, &tie.C1()), {&tie.pair().mortar, &tie.C2()}})
-      if (side->body == quantity.body && (!label || side->label == *label))
-        forEachEntry(*C, [&](int, int dof, double) { nodes.push_back(dof / dimension); });
+    for (size_t side = 0; side < tie.sides().size(); ++side)
+      if (isTieSide(tie, side, quantity.body, label))
+        forEachEntry(tie.sides()[side].C, [&](int, int dof, double) { nodes.push_back(dof / dimension); });
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   for (const int node : nodes)
