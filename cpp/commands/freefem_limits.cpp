@@ -33,6 +33,9 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
            !(c.value.constant && c.value.value(0, 0, 0) == 0)))
         refuse(c.where + ": tool " + body.name + ": a tool that turns beside sliding = \"finite\"",
                "no rotation");
+    for (const ConditionDescription& c : body.conditions)
+      if (c.point && c.kind == ConditionDescription::Kind::traction && !body.isTool())
+        refuse(c.where + ": body " + body.name + ": a force at a point", "none");
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });
     if (stressed || !body.regions.empty())

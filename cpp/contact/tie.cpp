@@ -83,20 +83,20 @@ std::map<int, double> partsOfNodes(const ContactMesh& of, int label, bool axisym
   for (size_t e = 0; e < of.mesh.boundaryEdges.size(); ++e) {
     if (of.mesh.boundaryLabels[e] != label) continue;
     const auto [a, b] = of.mesh.boundaryEdges[e];
-    const auto add = [&](int node, double length) {
-      parts[node] += length * (axisymmetric ? circumference(of.nodes.places[node]) : 1);
-    };
+    const auto depth = [&](int node) { return axisymmetric ? circumference(of.nodes.places[node]) : 1; };
     const Point& xa = of.nodes.places[a];
     const Point& xb = of.nodes.places[b];
     if (of.nodes.degree == 1) {
-      for (const int node : {a, b}) add(node, (xb - xa).norm() / 2);
+      const double sixth = (xb - xa).norm() / 6;
+      parts[a] += sixth * (2 * depth(a) + depth(b));
+      parts[b] += sixth * (depth(a) + 2 * depth(b));
       continue;
     }
     const int middle = of.nodes.middles[e];
     const Point& xm = of.nodes.places[middle];
-    add(a, (4 * xm - 3 * xa - xb).norm() / 6);
-    add(middle, (xb - xa).norm() * 2 / 3);
-    add(b, (xa - 4 * xm + 3 * xb).norm() / 6);
+    parts[a] += depth(a) * (4 * xm - 3 * xa - xb).norm() / 6;
+    parts[middle] += depth(middle) * (xb - xa).norm() * 2 / 3;
+    parts[b] += depth(b) * (xa - 4 * xm + 3 * xb).norm() / 6;
   }
   return parts;
 }
@@ -130,6 +130,7 @@ RigidTrace::RigidTrace(int ofBody, const SpaceContactMesh& mesh)
 struct Tie::Jumps {
   std::function<SpacePoint(int)> placeOf;  ///< of a nonmortar node [m]
   const RigidTrace* offset = nullptr;
+  double sign = 1;  ///< of its motion
 
   std::map<PartVertex, int> rowOf;          ///< by nonmortar nodes and smooth parts
   std::array<Triplets, 3> sides;            ///< nonmortar, mortar, the third body
@@ -153,7 +154,7 @@ struct Tie::Jumps {
     }
     for (const auto& [node, value] : across) to[1].emplace_back(row, node, -weight * value);
     if (offset == nullptr) return;
-    for (const auto& [node, value] : offset->at(x)) to[2].emplace_back(row, node, -weight * value);
+    for (const auto& [node, value] : offset->at(x)) to[2].emplace_back(row, node, -sign * weight * value);
   }
   void add(int row, double weight, const NodeValues& own, const NodeValues& across) {
     addTo(sides, row, weight, own, across);
@@ -183,6 +184,7 @@ Tie::Jumps Tie::between(const Contact& nonmortar, int mortarNodes, const TieOpti
   jumps.placeOf = [&nodes = nonmortar.nodes](int node) { return asSpacePoint(nodes.places[node]); };
   if (options.offset) {
     jumps.offset = &*options.offset;
+    jumps.sign = options.offsetOfMortar ? -1 : 1;
     sides_.push_back({options.offset->body, {}, {}});
     nodesOfSides_.push_back(options.offset->nodes);
   }

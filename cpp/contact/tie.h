@@ -66,8 +66,9 @@ struct TieOptions {
   TieKind kind = TieKind::surface;
   std::array<bool, 3> along{true, true, true};  ///< axes along which there are rows
   double stiffness = 0;                         ///< of a layer between the sides; 0: there is none [N/m^3]
-  std::optional<RigidTrace> offset = {};        ///< the third body
-  std::function<bool(int node)> taken = {};     ///< whether another tie has rows at a nonmortar node
+  std::optional<RigidTrace> offset = {};        ///< the third body, ...
+  bool offsetOfMortar = false;  ///< whose motion is that of the mortar side away from the nonmortar side
+  std::function<bool(int node)> taken = {};  ///< whether another tie has rows at a nonmortar node
   /// Directions of the rows of a node, as rows; the axes where empty.
   std::function<Eigen::Matrix3d(int node)> frame = {};
   bool axisymmetric = false;  ///< whether integrals are over the whole ring

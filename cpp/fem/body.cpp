@@ -67,7 +67,7 @@ void requirePlaces(const Mesh& mesh, const std::string& body, const Conditions& 
           return *condition.point;
       };
       if (condition.point && vertexAt(mesh, place()) < 0)
-        throw InputError("body " + body + ": a point that is held is no vertex of " + mesh.name);
+        throw InputError("body " + body + ": a point that is held or loaded is no vertex of " + mesh.name);
       if (!condition.point && !condition.onAxis &&
           std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), condition.label) ==
               mesh.boundaryLabels.end())

@@ -274,6 +274,7 @@ class Body {
   [[nodiscard]] Vector spaceLoad(double t) const;
   void addTractions(double t, Vector& f, bool steady) const;
   void addForces(double t, Vector& f, bool steady) const;
+  void addPointForces(double t, Vector& f) const;
   void findSteadyLoads();
   /// A datum at the points: in the plane its projection onto what stresses can be.
   [[nodiscard]] Vector atPoints(const Datum& datum, double t) const;

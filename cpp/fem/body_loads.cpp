@@ -8,6 +8,7 @@
 #include "fem/element.h"
 #include "fem/tetrahedron.h"
 #include "material/stress.h"
+#include "mesh/boundary_line.h"
 
 namespace mortier {
 namespace {
@@ -65,15 +66,26 @@ Vector Body::load(double t) const {
   if (rigid()) return rigidLoad(t);
   if (space_) return spaceLoad(t);
   Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
+  addPointForces(t, f);
   addTractions(t, f, false);
   addForces(t, f, false);
   return f;
+}
+
+void Body::addPointForces(double t, Vector& f) const {
+  for (const Condition& force : conditions_.tractions) {
+    if (!force.point) continue;
+    const SpacePoint& at = *force.point;
+    const int vertex = space_ ? vertexAt(space_->mesh(), at) : vertexAt(mesh_, Point(at.head<2>()));
+    f[static_cast<Eigen::Index>(dimension()) * vertex + force.component] += force.value(at, t);
+  }
 }
 
 Vector Body::spaceLoad(double t) const {
   const SpaceNodes& nodes = space_->nodes();
   const TetrahedronMesh& mesh = space_->mesh();
   Vector f = Vector::Zero(dofs());
+  addPointForces(t, f);
   const std::vector<SpaceRulePoint> onTriangle = triangleRule();
   for (const Condition& traction : conditions_.tractions)
     for (size_t i = 0; i < nodes.faces.size(); ++i) {
@@ -129,7 +141,7 @@ void Body::addTractions(double t, Vector& f, bool steady) const {
     using Element = decltype(element);
     for (const auto& traction : conditions_.tractions) {
       const bool isSteady = traction.value.degree > 1 && !traction.value.inTime;
-      if (isSteady != steady) continue;
+      if (isSteady != steady || traction.point) continue;
       const int exact = Element::edgeExact - (axisymmetric_ ? 1 : 0);
       for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
         if (mesh_.boundaryLabels[e] != traction.label) continue;

@@ -121,8 +121,11 @@ void lintBodies(const LintInput& input, Faults& faults) {
   for (size_t i = 0; i < bodies.size(); ++i) {
     for (size_t j = i + 1; j < bodies.size(); ++j)
       if (input.meshes[i] != nullptr && input.meshes[j] != nullptr) comparePair(input, i, j, faults);
-    const bool meetsAny = std::any_of(bodies.begin(), bodies.end(), [&](const BodyDescription& other) {
+    bool meetsAny = std::any_of(bodies.begin(), bodies.end(), [&](const BodyDescription& other) {
       return inContact(input.scene, bodies[i].name, other.name);
+    });
+    forEachPair(input.scene, [&](const ContactDescription& pair) {
+      meetsAny = meetsAny || pair.offset == bodies[i].name;
     });
     if (bodies.size() > 1 && !meetsAny)
       faults.add("body-alone", bodies[i].where,

@@ -55,7 +55,7 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
   const auto& conditions = input.scene.bodies[b].conditions;
   const std::vector<char> held = heldDofs(mesh, conditions);
   for (const ConditionDescription& c : conditions) {
-    if (c.kind != ConditionDescription::Kind::traction) continue;
+    if (c.kind != ConditionDescription::Kind::traction || c.point) continue;
     const auto edges = sidesWith(mesh, c.label);
     bool all = !edges.empty();
     for (const auto& [from, to] : edges) {

@@ -102,6 +102,12 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const double largest = body.largestForce(state.bodies[b].stress);
+    for (const Condition& load : body.conditions().tractions)
+      if (load.point)
+        doubts.push_back(
+            "body " + body.name() + " is loaded at " +
+            (body.dimension() == 3 ? shortest(*load.point) : shortest(Point(load.point->head<2>()))) +
+            ", where the energy of a force is infinite");
     std::set<int> seen;
     for (const Condition& held : body.conditions().displacements) {
       if (!held.point || !seen.insert(firstSupport(body, held.label, held.point)).second) continue;

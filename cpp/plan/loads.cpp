@@ -115,8 +115,11 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
       if (c.point) points.push_back(asSpacePoint(*c.point));
       if (c.pointInSpace) points.push_back(*c.pointInSpace);
       const bool held = c.kind == ConditionDescription::Kind::displacement;
-      data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,
-                      thinned(points), size});
+      const bool atPoint = c.point || c.pointInSpace;
+      data.push_back({held      ? SampledDatum::Kind::displacement
+                      : atPoint ? SampledDatum::Kind::force
+                                : SampledDatum::Kind::traction,
+                      b, &c.value, thinned(points), held || !atPoint ? size : 1 / size});
     }
     for (const std::optional<Expression>& force : input.scene.bodies[b].force)
       if (force) data.push_back({SampledDatum::Kind::force, b, &*force, thinned(places->all), size});

@@ -129,7 +129,7 @@ class Planner {
   void planPoints(size_t b) {
     std::set<std::string> points;
     for (const ConditionDescription& c : scene_.bodies[b].conditions)
-      if (c.point) points.insert(shortest(*c.point));
+      if (c.point && c.kind == ConditionDescription::Kind::displacement) points.insert(shortest(*c.point));
     if (points.empty()) return;
     std::string list;
     for (const std::string& point : points) list += (list.empty() ? "" : ", ") + point;

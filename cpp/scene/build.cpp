@@ -95,6 +95,7 @@ Model buildModel(ResolvedScene& scene) {
       options.kind = tie.tieKind;
       options.along = tie.along;
       options.stiffness = tie.stiffness;
+      options.offsetOfMortar = tie.nonmortarSide == 1;
       addTie(model, pairOf(description, tie), options,
              tie.offset.empty() ? -1 : bodyIndex(description, tie.offset));
       if (description.start.empty()) requireOneMotion(model, model.ties.back(), times);

@@ -194,6 +194,7 @@ Body buildBody(const BodyDescription& body, Mesh mesh, const SceneDescription& s
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     Condition condition{c.label, c.component, finiteValue(c.value, inSpace), c.pointInSpace};
     if (c.point) condition.point = asSpacePoint(*c.point);
+    if (condition.point) condition.label = -1;  // of no boundary
     condition.whereItIs = c.whereItIs;
     (held ? conditions.displacements : conditions.tractions).push_back(std::move(condition));
     if (held) displacements.push_back(&c);

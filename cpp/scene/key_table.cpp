@@ -148,10 +148,11 @@ un, ut | m | free | datum, or `"held"` | prescribed displacement along the outwa
 tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the displacement of the same
   component; `tz` with `dimension = 3`
 pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`
-[body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
+[body.point] `[[body.point]]` | | none | any number | what holds or loads one vertex
+  ([below](#supports-at-points))
 at | m | | `[x, y]`, with `dimension = 3` `[x, y, z]` | the vertex: to a thousandth of the shortest edge there
-ux, uy, uz | m | free | datum, or `"held"`; one of them at least | prescribed displacement; `uz` with
-  `dimension = 3`
+ux, uy, uz | m | free | datum, or `"held"` | prescribed displacement; `uz` with `dimension = 3`
+fx, fy, fz | N/m | 0 | datum | force; of rings and in space [N]; not beside `accuracy`
 [tool] `[[tool]]` | | none | any number | a rigid body, without material ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"`, `"point"` | of its outline; a point has
@@ -209,7 +210,8 @@ coupling | | `"kinematic"` | `"kinematic"`, `"distributing"` | of a tie to a too
 along | | all | a list of `"x"`, `"y"`, `"z"` | of a tie: the axes along which sides move as one
 stiffness | N/m^3 | rigid | > 0 | of a tie: traction over the distance that it makes, of a layer of glue or of
   springs
-offset | | none | the name of a tool of shape point | of a tie: the sides move apart by its motion
+offset | | none | the name of a tool of shape point | of a tie: its motion is that of the first side (of
+  `sides`, or `nonmortar`) past the other one
 [contact.sides contact.nonmortar contact.mortar]
 body, label
 [quantity] `[[quantity]]` | | none | any number | a number of every step, in `history.csv`, the log and

@@ -36,7 +36,8 @@ class Converter {
         const Units& units = at == "accuracy.max_seconds" ? ofTheClock_ : units_;
         Dimension dimension = *key->dimension;
         // Of tools, forces on whole rings and in space.
-        if (path == "tool" && dimension.force > 0 && !units.perDepth) ++dimension.length;
+        if ((path == "tool" || path == "body.point") && dimension.force > 0 && !units.perDepth)
+          ++dimension.length;
         convert(member, member.key, units, byDimension(dimension, units));
       } else {
         convertTable(member, at);

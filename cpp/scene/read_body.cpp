@@ -59,7 +59,7 @@ void readBoundary(const Node& node, BodyDescription& body) {
 
 void readPoint(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.point", "body " + body.name);
-  requireOfDimension(table, {"uz"}, {});
+  requireOfDimension(table, {"uz", "fz"}, {});
   ConditionDescription condition;
   if (node.inSpace)
     condition.pointInSpace = table.spacePoint("at");
@@ -67,16 +67,21 @@ void readPoint(const Node& node, BodyDescription& body) {
     condition.point = table.point("at");
   condition.where = table.find("at")->where;
   const size_t before = body.conditions.size();
-  const Keys keys{"ux", "uy", "uz"};
-  for (condition.component = 0; condition.component < 3; ++condition.component)
-    if (const auto datum = table.displacement(keys[condition.component])) {
+  const std::array<Keys, 2> keys{{{"ux", "uy", "uz"}, {"fx", "fy", "fz"}}};
+  for (const auto kind : {ConditionDescription::Kind::displacement, ConditionDescription::Kind::traction})
+    for (condition.component = 0; condition.component < 3; ++condition.component) {
+      const bool moves = kind == ConditionDescription::Kind::displacement;
+      const std::string& key = keys[moves ? 0 : 1][condition.component];
+      const auto datum = moves ? table.displacement(key) : table.datum(key);
+      if (!datum) continue;
+      condition.kind = kind;
       condition.value = *datum;
-      condition.whereItIs = table.isHeld(keys[condition.component]);
+      condition.whereItIs = moves && table.isHeld(key);
       addCondition(body, condition);
     }
   if (body.conditions.size() == before)
-    table.refuse(node, nameOfPlace(condition) + " has no condition, expected one of ux, uy" +
-                           (node.inSpace ? ", uz" : ""));
+    table.refuse(node, nameOfPlace(condition) + " has no condition, expected one of ux, uy, " +
+                           (node.inSpace ? "uz, fx, fy, fz" : "fx, fy"));
 }
 
 StressDescription readInitialStress(const TableReader& owner, const std::string& path,

@@ -45,6 +45,11 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
         body.volumeWhere +
         ", expected pointwise beside accuracy.bound: bounds need stresses that balance the loads "
         "on the strains of the displacements themselves");
+  for (const ConditionDescription& c : body.conditions)
+    if ((c.point || c.pointInSpace) && c.kind == ConditionDescription::Kind::traction && !body.isTool() &&
+        (scene.accuracy.asked() > 0 || scene.accuracy.bound))
+      throw InputError(c.where + ": body " + body.name +
+                       ": a force at a point, expected none beside accuracy: its energy is infinite");
   if (!body.temperature) return;
   if (scene.accuracy.bound)
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
