@@ -20,8 +20,7 @@ enum Component : int { alongX, alongY, alongZ, alongNormal, alongTangent };
 
 /// A displacement [m] or a force per area along a direction (Component), on a labelled boundary; in the plane
 /// the force is per length [N/m per metre of depth, Pa]. A pressure p is the normal traction -p. Or a
-/// displacement along an axis at a vertex.
-/// A displacement or a traction, at a point a force [N/m], about an axis and in space [N].
+/// displacement or a force along an axis at a vertex [N/m], about an axis of revolution and in space [N].
 struct Condition {
   int label = 0;
   int component = 0;
