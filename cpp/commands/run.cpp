@@ -175,11 +175,9 @@ void Run::addVerdict() {
   if (solved.report.stuck)
     facts.driving = drivingDatum(meshedScene(attempt_->scene(), *attempt_->model), solved.state.time,
                                  solved.report.stuck->time);
-  if (!attempt_->scene().inSpace()) {
-    facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
-    for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
-      facts.doubts.push_back(doubt);
-  }
+  if (!attempt_->scene().inSpace()) facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
+  for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
+    facts.doubts.push_back(doubt);
   for (const ContactDoubt& doubt :
        contactDoubts(*attempt_->model, solved.state, solved.report.peaks.contactForce.value)) {
     facts.doubts.push_back(doubt.text);

@@ -102,24 +102,27 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const double largest = body.largestForce(state.bodies[b].stress);
+    const auto placeOf = [&](const Condition& at) {
+      return body.dimension() == 3 ? shortest(*at.point) : shortest(Point(at.point->head<2>()));
+    };
     for (const Condition& load : body.conditions().tractions)
       if (load.point)
-        doubts.push_back(
-            "body " + body.name() + " is loaded at " +
-            (body.dimension() == 3 ? shortest(*load.point) : shortest(Point(load.point->head<2>()))) +
-            ", where the energy of a force is infinite");
+        doubts.push_back("body " + body.name() + " is loaded at " + placeOf(load) +
+                         ", where the energy of a force is infinite");
     std::set<int> seen;
     for (const Condition& held : body.conditions().displacements) {
       if (!held.point || !seen.insert(firstSupport(body, held.label, held.point)).second) continue;
-      Quantity along{"", Quantity::Kind::reaction, static_cast<int>(b)};
-      along.point = held.point;
-      Quantity across = along;
-      across.component = Quantity::Component::y;
-      const std::vector<double> force = evaluate({along, across}, model, state);
-      const double size = std::hypot(force[0], force[1]);
-      if (size > noticeable * largest)
-        doubts.push_back("body " + body.name() + " is held at " + shortest(Point(held.point->head<2>())) +
-                         " by a force of " + digits(size) + (body.axisymmetric() ? " N" : " N/m") +
+      std::vector<Quantity> components;
+      for (int c = 0; c < body.dimension(); ++c) {
+        components.push_back({"", Quantity::Kind::reaction, static_cast<int>(b)});
+        components.back().point = held.point;
+        components.back().component = static_cast<Quantity::Component>(c);
+      }
+      double square = 0;
+      for (const double each : evaluate(components, model, state)) square += each * each;
+      if (const double size = std::sqrt(square); size > noticeable * largest)
+        doubts.push_back("body " + body.name() + " is held at " + placeOf(held) + " by a force of " +
+                         digits(size) + (body.axisymmetric() || body.dimension() == 3 ? " N" : " N/m") +
                          ", whose energy at a point is infinite");
     }
   }

@@ -149,14 +149,15 @@ tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the d
   component; `tz` with `dimension = 3`
 pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`
 [body.point] `[[body.point]]` | | none | any number | what holds or loads one vertex
-  ([below](#supports-at-points))
+  ([below](#supports-and-forces-at-points))
 at | m | | `[x, y]`, with `dimension = 3` `[x, y, z]` | the vertex: to a thousandth of the shortest edge there
 ux, uy, uz | m | free | datum, or `"held"` | prescribed displacement; `uz` with `dimension = 3`
 fx, fy, fz | N/m | 0 | datum | force; of rings and in space [N]; not beside `accuracy`
 [tool] `[[tool]]` | | none | any number | a rigid body, without material ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
-shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"`, `"point"` | of its outline; a point has
-  none, ties take its motion ([below](#couplings-springs-and-bolts)); with `dimension = 3` a point alone
+shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"`, `"point"` | of its outline; a
+  point has none, ties take its motion ([below](#couplings-springs-and-bolts)); with `dimension = 3` a point
+  alone
 points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
   the spline goes through; the tool lies to the left of the polyline
 labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides, from the first corner on
@@ -205,8 +206,8 @@ sliding | | `"refuse"` | `"refuse"`, `"allow"`, `"finite"` | slips are taken as 
   pressed slides past the end of the line that it touches, by more than an edge and a tenth of that line, the
   run ends (exit code 1, with the state so far in `DIR.failed`), or goes on; with `"finite"` contact follows
   the bodies, however far they slide ([below](#finite-sliding))
-coupling | | `"kinematic"` | `"kinematic"`, `"distributing"` | of a tie to a tool of shape `"point"`: each node
-  of the side follows it, or their weighted mean motion does ([below](#couplings-springs-and-bolts))
+coupling | | `"kinematic"` | `"kinematic"`, `"distributing"` | of a tie to a tool of shape `"point"`: each
+  node of the side follows it, or their weighted mean motion does ([below](#couplings-springs-and-bolts))
 along | | all | a list of `"x"`, `"y"`, `"z"` | of a tie: the axes along which sides move as one
 stiffness | N/m^3 | rigid | > 0 | of a tie: traction over the distance that it makes, of a layer of glue or of
   springs

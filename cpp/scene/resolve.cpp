@@ -171,7 +171,7 @@ void placeAt(const SpacePoint& place, double size, TetrahedronMesh& mesh) {
   mesh = tetrahedronAt(place, size);
 }
 
-/// Tools that are points get a size at which they are seen beside the bodies. \param meshes  none where unknown
+/// Tools that are points get a size at which they are seen beside the bodies. \param meshes  null if unknown
 template <class Mesh>
 void sizePoints(const SceneDescription& scene, const std::vector<Mesh*>& meshes) {
   constexpr double part = 0.05;

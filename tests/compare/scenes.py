@@ -195,6 +195,26 @@ name = "wall"
 shape = "line"
 points = [[1, 1.2], [1, -0.2]]
 rotation = 0
+[[tool]]
+name = "pin"
+shape = "point"
+at = [0, 0.5]
+[[tool]]
+name = "wedge"
+shape = "point"
+at = [3, 0]
+fx = 0.1
+[[body]]
+name = "shank"
+mesh = { shape = "rectangle", lower = [2, 0], upper = [3, 1], cells = [1, 2] }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0, uy = 0 } ]
+point = [ { at = [3, 1], fy = 0.1 } ]
+[[body]]
+name = "head"
+mesh = { shape = "rectangle", lower = [3, 0], upper = [4, 1], cells = [1, 1] }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 2, ux = 0, uy = 0 } ]
 [[body]]
 name = "block"
 mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [4, 4] }
@@ -205,6 +225,16 @@ sides = [ { body = "block", label = 3 }, { body = "stamp", label = 1 } ]
 friction = 0.5
 [[contact]]
 sides = [ { body = "block", label = 2 }, { body = "wall", label = 1 } ]
+[[contact]]
+kind = "tied"
+sides = [ { body = "block", label = 4 }, { body = "pin" } ]
+coupling = "distributing"
+along = ["x"]
+stiffness = 10
+[[contact]]
+kind = "tied"
+sides = [ { body = "shank", label = 2 }, { body = "head", label = 4 } ]
+offset = "wedge"
 [time]
 end = 1
 steps = 2

@@ -76,6 +76,20 @@ def ram(text, mesh="mesh={shape='cuboid', lower=[-1, -1, 1], upper=[2, 2, 2], ce
             f"tool=[{{name='ram', {mesh}, at={[*at]}, {text}}}]"]
 
 
+def handle(text, more="uz=-0.01, rotation_x=0.01"):
+    """The upper block is tied to the motion of a point."""
+    return [ELASTIC, "body.upper.boundary=[{label=4, ux=0}, {label=5, uy=0}]",
+            "contact=[{nonmortar={body='upper', label=1}, mortar={body='lower', label=3}}, "
+            f"{{kind='tied', sides=[{{body='upper', label=3}}, {{body='handle'}}], {text}}}]",
+            f"tool=[{{name='handle', shape='point', at=[0.5, 0.5, 1], {more}}}]"]
+
+
+def wedge(text):
+    """A point may move the sides of a tie apart."""
+    return [ELASTIC, "contact=[{kind='tied', nonmortar={body='upper', label=1}, mortar={body='lower', "
+            "label=3}, offset='wedge'}]", f"tool=[{{name='wedge', shape='point', at=[0, 0, 0], {text}}}]"]
+
+
 # Key: the settings of two runs whose results differ, or what is said of the one setting that is refused.
 DIFFERENT = {
     "title": either("title", "one", "two"), "dimension": refused("dimension = 4", "dimension=4"),
@@ -181,6 +195,14 @@ DIFFERENT = {
     "body.point.at": either("body.upper.point", "[{at=[1, 1, 1], uz=-0.1}]", "[{at=[1, 0, 1], uz=-0.1}]"),
     **{f"body.point.{key}": added(f"body.upper.point=[{{at=[1, 1, 1], {key}=-0.1}}]")
        for key in ("ux", "uy", "uz")},
+    **{f"body.point.{key}": added(f"body.upper.point=[{{at=[1, 1, 1], {key}=-0.1}}]")
+       for key in ("fx", "fy", "fz")},
+    "tool.shape": (handle("along=['z']"), handle("along=['z']", "uz=-0.01")),
+    "contact.coupling": (handle("coupling='kinematic'"), handle("coupling='distributing'")),
+    "contact.along": (handle("along=['z']"), handle("along=['y', 'z']")),
+    "contact.stiffness": (handle("coupling='distributing'"),
+                          handle("coupling='distributing', stiffness=100")),
+    "contact.offset": (wedge("uz=0.01"), wedge("uz=0.02")),
     "contact.nonmortar": either("contact", "[{nonmortar={body='upper', label=1}, mortar={body='lower', "
                                 "label=3}}]", "[{nonmortar={body='lower', label=3}, mortar={body='upper', "
                                 "label=1}}]"),
@@ -206,7 +228,7 @@ DIFFERENT = {
                             for value in (-0.01, -0.02))
        for key in ("fx", "fy", "fz", "moment_x", "moment_y", "moment_z")},
     **{f"tool.{key}": refused(f"{key} = ", *ram(f"uz=-0.1, {key}={value}"))
-       for key, value in (("shape", "'disc'"), ("points", "[[0, 0], [1, 0]]"), ("labels", "[1]"),
+       for key, value in (("points", "[[0, 0], [1, 0]]"), ("labels", "[1]"),
                           ("centre", "[0, 0]"), ("radius", 1), ("lower", "[0, 0]"), ("upper", "[1, 1]"),
                           ("rotation", 0.1), ("moment", 0.1))},
     "quantity.name": either("quantity.name", "one", "two"),
