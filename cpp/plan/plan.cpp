@@ -139,14 +139,25 @@ class Planner {
         "displacements there grow as meshes are refined");
   }
 
+  void planTie(size_t k) {
+    const ContactDescription& tie = scene_.ties[k];
+    const bool toPoint = tie.tieKind != TieKind::surface;
+    const std::string what = wordOfTie(tie) + (toPoint ? " coupling of " : " tie at ") +
+                             counted(model_.ties[k].nonmortarNodes().size(), "node") + " of " +
+                             tie.nonmortar().body + " to " + tie.mortar().body;
+    std::string why = tie.tieKind == TieKind::kinematic      ? "they move as a part of a rigid body"
+                      : tie.tieKind == TieKind::distributing ? "their mean motion is that of the point"
+                                                             : "its sides move as one";
+    if (tie.stiffness > 0)
+      why += " but for a layer of stiffness " + shortest(tie.stiffness) + " " + scene_.units.stress + "/" +
+             scene_.units.length;
+    if (!tie.offset.empty()) why += ", " + tie.offset + " apart";
+    if (!toPoint && !tie.choice.empty()) why += "; " + tie.choice;
+    add("tie " + std::to_string(k), true, what, why);
+  }
+
   void planContact() {
-    for (size_t k = 0; k < model_.ties.size(); ++k)
-      add("tie " + std::to_string(k), true,
-          "tie by " + wordOfTie(scene_.ties[k]) + " at " +
-              counted(model_.ties[k].nonmortarNodes().size(), "node") + " of " +
-              model_.bodies[model_.ties[k].pair().nonmortar.body].name(),
-          "its sides move as one" + std::string(scene_.ties[k].choice.empty() ? "" : "; ") +
-              scene_.ties[k].choice);
+    for (size_t k = 0; k < model_.ties.size(); ++k) planTie(k);
     if (model_.interfaces.empty() && !model_.ties.empty()) return;
     if (model_.interfaces.empty()) {
       add("contact", false, "contact: bodies are solved separately",
