@@ -26,6 +26,10 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.time.controlled() && !stepsGiven)
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
            "equal steps, or those of a run (--steps-of)");
+  forEachPair(scene, [](const ContactDescription& pair) {
+    if (pair.nonmortar().body == pair.mortar().body)
+      refuse(pair.where + ": two sides of one body", "two bodies");
+  });
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
       if (body.isTool() && c.turns() && isFollowed(scene, body.name) &&

@@ -8,7 +8,7 @@ const std::vector<FaultKind>& faultKinds() {
       // The scene's file.
       {"scene", error, "the scene cannot be read, or a key or a value is wrong",
        "see docs/scene.md for the keys and their values"},
-      {"same-body", error, "both sides of a contact are the same body",
+      {"same-side", error, "both sides of a contact are one side",
        "name the other body on one of the sides"},
       {"allow-unknown", warning, "check.allow names a fault that does not exist",
        "take the id from docs/check.md"},

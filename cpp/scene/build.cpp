@@ -39,7 +39,12 @@ ContactPair pairOf(const SceneDescription& scene, const ContactDescription& cont
   const auto side = [&](const SideDescription& of) {
     return ContactSide{bodyIndex(scene, of.body), of.label};
   };
-  return {side(contact.nonmortar()), side(contact.mortar()), contact.variant};
+  const ContactPair pair{side(contact.nonmortar()), side(contact.mortar()), contact.variant};
+  if (pair.nonmortar.body == pair.mortar.body && pair.nonmortar.label == pair.mortar.label)
+    throw InputError("both sides are label " + std::to_string(pair.mortar.label) + " of body " +
+                         contact.mortar().body + ", expected two sides",
+                     "same-side");
+  return pair;
 }
 
 /// Where a support and the motion of a tool both prescribe what a node does. \throws InputError

@@ -155,6 +155,23 @@ void readStabilised(const TableReader& table, const SceneDescription& scene, Con
                                  : "false beside accuracy.bound");
 }
 
+/// Two sides of one body may touch, as those of a slit. \throws InputError
+void requireTwoSides(const TableReader& table, const SceneDescription& scene,
+                     const ContactDescription& contact) {
+  const auto& [one, other] = contact.sides;
+  if (one.body != other.body) return;
+  const std::string label =
+      other.labelName.empty() ? std::to_string(other.label) : '"' + other.labelName + '"';
+  if (one.label == other.label && one.labelName == other.labelName)
+    throw InputError(table.message(other.where, "both sides are label " + label + " of body " + other.body +
+                                                    ", expected two sides"),
+                     "same-side");
+  if (scene.accuracy.bound || !scene.accuracy.quantity.empty())
+    throw InputError(table.message(other.where, "both sides are of body " + other.body +
+                                                    ", expected two bodies beside accuracy." +
+                                                    (scene.accuracy.bound ? "bound" : "quantity")));
+}
+
 }  // namespace
 
 ContactDescription readContact(const Node& node, const SceneDescription& scene) {
@@ -178,10 +195,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.friction = readFriction(table, scene);
   contact.sliding = table.choice<SlidingKind>("sliding");
   if (contact.sliding == SlidingKind::finite) refuseBesideFinite(table, scene, contact);
-  if (contact.nonmortar().body == contact.mortar().body)
-    throw InputError(table.message(contact.mortar().where,
-                                   "both sides are body " + contact.mortar().body + ", expected two bodies"),
-                     "same-body");
+  requireTwoSides(table, scene, contact);
   for (const ContactDescription& other : contact.tied ? scene.ties : scene.contacts) {
     if (other.nonmortar().body == contact.nonmortar().body &&
         other.nonmortar().label == contact.nonmortar().label &&

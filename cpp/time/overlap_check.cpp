@@ -28,7 +28,7 @@ OverlapCheck::OverlapCheck(const Model& model) : model_(model) {
   }
   for (const Tie& tie : model.ties) {
     std::map<size_t, std::vector<int>>& nodes = tiedNodes_.emplace_back();
-    for (size_t k = 0; k < 2; ++k) {
+    for (size_t k = 0; k < 2 && tie.sides()[0].body != tie.sides()[1].body; ++k) {
       std::set<int> of;
       forEachEntry(tie.sides()[k].C, [&](int, int dof, double) { of.insert(dof / tie.dimension()); });
       nodes[static_cast<size_t>(tie.sides()[k].body)] = {of.begin(), of.end()};
@@ -126,7 +126,8 @@ void OverlapCheck::dropTied(const Places& places, std::vector<Sample>& samples) 
       const auto isOf = [&](size_t b) {
         return sample.bodies[0] == static_cast<int>(b) || sample.bodies[1] == static_cast<int>(b);
       };
-      return std::ranges::all_of(nodes, [&](const auto& side) { return isOf(side.first); }) &&
+      return !nodes.empty() &&
+             std::ranges::all_of(nodes, [&](const auto& side) { return isOf(side.first); }) &&
              std::ranges::any_of(nodes, [&](const auto& side) {
                return std::ranges::any_of(side.second, [&](int node) {
                  return (places.of(side.first, node) - sample.at).norm() <= reach * sample.size;

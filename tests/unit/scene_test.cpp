@@ -87,8 +87,8 @@ TEST_F(SceneFiles, messagesNameFileLineKeyValueAndExpectation) {
       {{"contact.mortar.label=7"},
        "--set contact.mortar.label=7: body lower: label = 7, expected one of 1, 2, 3, 4 "
        "(boundary labels of lower.mesh)"},
-      {{"contact.mortar.body=upper"},
-       "scene.toml:20: contact: both sides are body upper, expected two bodies"},
+      {{"contact.mortar.body=upper", "contact.mortar.label=1"},
+       "--set contact.mortar.label=1: contact: both sides are label 1 of body upper, expected two sides"},
       {{"time.step=3"},
        "--set time.step=3: no step in time, did you mean steps? Expected one of end, steps, scheme, "
        "tolerance, max_steps, "

@@ -131,8 +131,8 @@ FAULTS = [
     # contact
     ("body = \"lower\"", "body = \"lowr\"", "scene.toml:22: mortar side of contact: body = \"lowr\", "
                                             "expected one of upper, lower"),
-    ("body = \"lower\"", "body = \"upper\"", "scene.toml:22: contact: both sides are body upper, "
-                                             "expected two bodies"),
+    ("body = \"lower\", label = 3", "body = \"upper\", label = 1", "scene.toml:22: contact: both sides are "
+     "label 1 of body upper, expected two sides"),
     ("label = 3 }\n", "label = 7 }\n", "scene.toml:22: body lower: label = 7, expected one of 1, 2, 3, 4"),
     ("label = 3 }\n", "label = 1 }\n", "scene.toml:20: contact: "),
     ("label = 3 }\n", "label = 2 }\n", "scene.toml:20: contact: "),

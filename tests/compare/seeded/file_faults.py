@@ -4,8 +4,8 @@ from seeded.case import fault
 
 fault("scene", "scene.toml:4")(lambda case: case.replace("poisson = 0.3", "poisson = 0.6"))
 fault("scene", "step = 100")(lambda case: case.replace("steps = 100", "step = 100"))
-fault("same-body", "scene.toml:25")(
-    lambda case: case.replace('body = "lower", label = 3', 'body = "upper", label = 3'))
+fault("same-side", "scene.toml:25")(
+    lambda case: case.replace('body = "lower", label = 3', 'body = "upper", label = 1'))
 
 
 @fault("allow-unknown", "allow = ")
