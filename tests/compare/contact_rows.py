@@ -92,7 +92,7 @@ def nearly_incompressible(program):
 
 def tipping(program):
     """A block of 1 x 2, weight 2, pushed at half its height by t: tips at t = 1 about its corner."""
-    faults, steps = [], 400
+    faults, steps = [], 150
     for degree in (1, 2):
         for variant in (None, "mortar"):
             for swap in (False, True):

@@ -87,7 +87,7 @@ class DataBounds(InFolder):
 
     def test_random_scenes(self):
         enclosed = 0
-        for kind, count, most in (("linear", 6, 1.6), ("natural", 12, 1.6), ("hostile", 4, 4)):
+        for kind, count, most in (("linear", 3, 1.6), ("natural", 6, 1.6), ("hostile", 3, 4)):
             ratios = []
             for number in range(count):
                 with self.subTest(kind=kind, number=number):

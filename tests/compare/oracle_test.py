@@ -69,7 +69,7 @@ FAULTS = [
     ("normal of the chord at the end of a curve", "lines", "if (flat) {", "if (flat || i == 0) {", "ring",
      "mortar as it stands", "displacement"),
     ("direction of the nonmortar normal", "lines", "k1(i)/(k1(i) + kb) : 0.5;", "0 : 0;", "hertz",
-     "mortar as it stands", "displacement"),
+     "mortar as it stands", "nodes"),
     ("direction of the mean normal", "lines", "k1(i)/(k1(i) + kb) : 0.5;", "0.5 : 0.5;", "hertz",
      "mortar as it stands", "displacement"),
     ("distance of the polygon", "lines", "- bulge(circle1, a, b, phi, nHereX, nHereY)", "", "hertz",

@@ -11,7 +11,7 @@ namespace mortier::random_scenes_test {
 using namespace scenes;
 
 TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
-  constexpr int count = 10000;
+  constexpr int count = 3000;
   constexpr double tolerance = 1e-9;
   double worstForce = 0;
   double worstDisplacement = 0;
