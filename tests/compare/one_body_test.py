@@ -96,7 +96,8 @@ class OneBody(InFolder):
                               ("friction", {"contact": "friction = 0.3"}),
                               ("interpolation", {"contact": 'variant = "interpolation"'}),
                               ("axis", {"head": 'plane = "axisymmetric"\n'}),
-                              ("finite sliding", {"contact": 'sliding = "finite"'}), ("space", {"space": True}),
+                              ("finite sliding", {"contact": 'sliding = "finite"'}),
+                              ("space", {"space": True}),
                               ("space, friction", {"space": True, "contact": "friction = 0.3"})):
             with self.subTest(name):
                 one, two = self.scenes(**options)
