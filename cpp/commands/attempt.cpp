@@ -73,6 +73,10 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 }  // namespace
 
 State startOf(const SceneDescription& scene, const Model& model) {
+  if (scene.start.empty() && !scene.after.empty())
+    throw InputError(scene.path + ": expected --set start=DIR, the result of stage " + scene.after +
+                         ", or mortier run without stage=, which takes all stages in turn",
+                     "start");
   if (scene.start.empty()) return initialState(model);
   const auto refuse = [&](const std::string& what) {
     throw InputError(scene.startWhere + ": start = \"" + scene.start + "\": " + what, "start");

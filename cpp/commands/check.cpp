@@ -75,15 +75,15 @@ void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) 
 }
 
 /// \returns the exit code that a run would have, 0 where there are warnings only
-int check(const SceneOptions& command, bool json) {
+int checkOne(const SceneOptions& command, bool json) {
   LintReport report = lint(command.scene, command.settings);
   Plan plan;
   if (report.model) {
-    try {
-      static_cast<void>(startOf(*report.scene, *report.model));
-    } catch (const InputError& error) {
-      addError(error, "start", report.faults);
-    }
+    if (const SceneDescription& scene = *report.scene; scene.after.empty() || !scene.start.empty()) try {
+        static_cast<void>(startOf(*report.scene, *report.model));
+      } catch (const InputError& error) {
+        addError(error, "start", report.faults);
+      }
     plan = planOf(*report.scene, *report.model);
     addRefusals(*report.scene, *report.model, plan);
   }
@@ -99,6 +99,25 @@ int check(const SceneOptions& command, bool json) {
                 counted(faults.count(Severity::warning), "warning").c_str());
   }
   return wrong > 0 ? exitWrongInput : unheld > 0 ? exitUnheld : exitDone;
+}
+
+/// The same of all stages: the code of the first that is wrong.
+int check(const SceneOptions& command, bool json) {
+  std::vector<std::string> stages;
+  try {
+    stages = stagesToRun(command.scene, command.settings);
+  } catch (const InputError&) {
+    return checkOne(command, json);  // which names it
+  }
+  if (stages.empty()) return checkOne(command, json);
+  int result = exitDone;
+  for (const std::string& stage : stages) {
+    SceneOptions each = command;
+    each.settings.push_back("stage=" + stage);
+    if (!json) std::printf("stage      %s\n", stage.c_str());
+    if (const int code = checkOne(each, json); result == exitDone) result = code;
+  }
+  return result;
 }
 
 }  // namespace

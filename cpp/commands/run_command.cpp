@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -110,6 +111,25 @@ int runScene(RunCommand command) {
   return ending.code;
 }
 
+/// Each stage goes on from the one before, in a result of its own; that of the last has the name of the run.
+int runStages(const RunCommand& command) {
+  const std::vector<std::string> stages =
+      command.restart.empty() ? stagesToRun(command.scene, command.settings) : std::vector<std::string>();
+  if (stages.empty()) return runScene(command);
+  const std::string out = command.options.out.empty() ? defaultFolder(command.scene) : command.options.out;
+  std::string before;
+  for (const std::string& stage : stages) {
+    RunCommand each = command;
+    each.options.out = stage == stages.back() ? out : out + "-" + stage;
+    each.settings.push_back("stage=" + stage);
+    if (!before.empty()) each.settings.push_back("start=" + before);
+    if (!command.options.quiet) std::printf("stage      %s\n", stage.c_str());
+    if (const int code = runScene(each); code != exitDone) return code;
+    before = each.options.out;
+  }
+  return exitDone;
+}
+
 }  // namespace
 
 Command addRun(CLI::App& app) {
@@ -148,7 +168,7 @@ Command addRun(CLI::App& app) {
   run->add_flag("--quiet", options.quiet, "no log and no progress bar: messages on standard error alone");
   return {run, [command] {
             if (command->restart.empty() || !command->settings.empty()) command->requireScene();
-            return runScene(*command);
+            return runStages(*command);
           }};
 }
 

@@ -14,13 +14,14 @@ namespace mortier {
 
 namespace {
 
-/// Names the line of a value; values from the command line all share one place.
+/// Names the line of a value; those of a setting all share one place.
 struct Places {
   std::string place;
+  bool byLine = true;
   bool fromCommandLine = false;
 
   [[nodiscard]] std::string at(const toml::source_region& source) const {
-    return fromCommandLine ? place : place + ":" + std::to_string(source.begin.line);
+    return byLine ? place + ":" + std::to_string(source.begin.line) : place;
   }
 };
 
@@ -139,24 +140,24 @@ Node readDocument(const std::string& path, const std::string& text) {
   try {
     requireShortKeys(text, path);
     const toml::table table = toml::parse(text, path);
-    return convert(table, {path, false});
+    return convert(table, {path});
   } catch (const toml::parse_error& error) {
     throw InputError(path + ":" + std::to_string(error.source().begin.line) +
                      ": not TOML: " + oneLine(error.description()));
   }
 }
 
-Node parseSetting(const std::string& text, const std::string& where) {
+Node parseSetting(const std::string& text, const std::string& where, bool fromCommandLine) {
   try {
     requireShortKeys(text, where);
     const toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1) return convert(*table.get("value"), {where, true});
+    if (table.size() == 1) return convert(*table.get("value"), {where, false, fromCommandLine});
   } catch (const toml::parse_error&) {  // a path or an expression: a plain string
   }
   Node node;
   node.kind = Node::Kind::string;
   node.where = where;
-  node.fromCommandLine = true;
+  node.fromCommandLine = fromCommandLine;
   node.text = text;
   return node;
 }

@@ -262,6 +262,13 @@ point | m
 body, label
 from, to | m
 margin | m | 0 | >= 0
+[stage] `[[stage]]` | | none | any number | a part of the loading, a run that goes on from the one before
+  ([below](#stages))
+name | | | letters, digits, `_`, `-`; each once | of the result: `OUT-NAME`, that of the last is `OUT`
+end | s | | > 0 | its `time.end`
+steps | | those before | integer >= 1 | its `time.steps`
+set | | none | a list of `"key=value"` | what it [changes](#changing-keys-from-the-command-line) of the stage
+  before
 [time] `[time]` | | | table |
 end | s | | > 0 | final time T; a run begins at 0
 steps | | | integer >= 1 | equal steps; together with `tolerance` not needed: the first step tried is

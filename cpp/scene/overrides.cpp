@@ -11,13 +11,15 @@ namespace {
 
 struct Setting {
   std::string where;
+  bool fromCommandLine = true;
   std::vector<std::string> path;
   Node value;
 };
 
-Setting parse(const std::string& text) {
+/// \param place  in the scene; empty: it comes from the command line
+Setting parse(const std::string& text, const std::string& place) {
   constexpr size_t longest = 200;  // it stands in every value of the setting
-  const std::string where = "--set " + printable(text, longest);
+  const std::string where = place.empty() ? "--set " + printable(text, longest) : printable(place, longest);
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(where + ": expected key=value, e.g. time.steps=20");
@@ -29,7 +31,7 @@ Setting parse(const std::string& text) {
       throw InputError(where + ": the key has an empty component, expected e.g. body.upper.mesh");
     begin = end + 1;
   }
-  return {where, path, parseSetting(text.substr(equals + 1), where)};
+  return {where, place.empty(), path, parseSetting(text.substr(equals + 1), where, place.empty())};
 }
 
 /// What an element of an array of tables is called by: its name or its label.
@@ -99,7 +101,7 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
     member = &table.members.emplace_back();
     member->key = word;
     member->where = setting.where;
-    member->fromCommandLine = true;
+    member->fromCommandLine = setting.fromCommandLine;
   }
   if (depth + 1 == setting.path.size()) {
     *member = setting.value;
@@ -116,8 +118,8 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
 
 }  // namespace
 
-void applyOverride(Node& document, const std::string& setting) {
-  set(document, parse(setting), 0, "");
+void applyOverride(Node& document, const std::string& setting, const std::string& place) {
+  set(document, parse(setting, place), 0, "");
 }
 
 }  // namespace mortier

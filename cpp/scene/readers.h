@@ -97,7 +97,11 @@ class TableReader {
 /// out, which means every element:
 ///   time.steps=20   contact.variant=interpolation   body.upper.mesh=a.mesh
 ///   body.material.projection=frobenius
-void applyOverride(Node& document, const std::string& setting);
+/// \param place  of the setting in the scene; empty: on the command line
+void applyOverride(Node& document, const std::string& setting, const std::string& place);
+/// Applies those of the stage that `stage=NAME` among the settings chooses, and the others after them.
+/// \returns the stage before that one; empty where it is the first, or the scene has no stages
+std::string applySettings(Node& document, const std::vector<std::string>& settings);
 
 /// The units that a scene says.
 Units readUnits(const Node& scene);

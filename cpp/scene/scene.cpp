@@ -203,7 +203,17 @@ void requireEstimated(const ContactDescription& contact, int degree) {
 /// The result with whose last state the run begins. \throws InputError beside what begins from bodies at rest
 void readStart(const TableReader& root, SceneDescription& scene) {
   const Node* start = root.find("start");
-  if (start == nullptr) return;
+  if (start == nullptr) {
+    if (scene.after.empty()) return;
+    // The result of the stage before is not there yet: its time is known.
+    std::vector<std::string> before = scene.settings;
+    before.push_back("stage=" + scene.after);
+    scene.time.begin = readScene(scene.path, before).time.end;
+    if (!(scene.time.end > scene.time.begin))
+      throw InputError(scene.path + ": time.end = " + shortest(scene.time.end) + ", expected one after " +
+                       shortest(scene.time.begin) + ", the end of stage " + scene.after);
+    return;
+  }
   static_cast<void>(root.string("start"));
   scene.start = pathOf(*start, scene.path);
   scene.startWhere = start->where;
@@ -246,7 +256,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   const auto read = std::make_shared<Node>(readDocument(path, scene.text));
   scene.document = read;
   Node& document = *read;
-  for (const std::string& setting : settings) applyOverride(document, setting);
+  scene.after = applySettings(document, settings);
   scene.units = readUnits(document);
   const TableReader root(document, "", "");
   scene.title = root.string("title", "");

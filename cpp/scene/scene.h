@@ -230,6 +230,7 @@ struct SceneDescription {
       0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
   std::string start;  ///< the result with whose last state the run begins; empty: bodies as drawn, at rest
   std::string startWhere;            ///< file and line of it
+  std::string after;                 ///< the stage before the one that it is; empty where there is none
   bool keepsState = false;           ///< whether the result is to have the last state, for another run
   std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)
 
@@ -239,6 +240,10 @@ struct SceneDescription {
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.
 /// \throws InputError with one line `file:line: subject: key = value, expected ...`.
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
+
+/// The names of the stages of a scene file, in turn; none where it has none or the settings choose one.
+/// \throws InputError
+std::vector<std::string> stagesToRun(const std::string& path, const std::vector<std::string>& settings);
 
 /// Calls visit with every contact and every tie.
 template <class Scene, class Visit>
