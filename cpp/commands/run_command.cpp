@@ -117,11 +117,18 @@ int runStages(const RunCommand& command) {
       command.restart.empty() ? stagesToRun(command.scene, command.settings) : std::vector<std::string>();
   if (stages.empty()) return runScene(command);
   const std::string out = command.options.out.empty() ? defaultFolder(command.scene) : command.options.out;
+  const auto settingsOf = [&](const std::string& stage) {
+    std::vector<std::string> settings = command.settings;
+    settings.push_back("stage=" + stage);
+    return settings;
+  };
+  // What is wrong with a later stage is found before the first.
+  for (const std::string& stage : stages) static_cast<void>(readScene(command.scene, settingsOf(stage)));
   std::string before;
   for (const std::string& stage : stages) {
     RunCommand each = command;
     each.options.out = stage == stages.back() ? out : out + "-" + stage;
-    each.settings.push_back("stage=" + stage);
+    each.settings = settingsOf(stage);
     if (!before.empty()) each.settings.push_back("start=" + before);
     if (!command.options.quiet) std::printf("stage      %s\n", stage.c_str());
     if (const int code = runScene(each); code != exitDone) return code;

@@ -241,6 +241,81 @@ class Stages(Case):
         self.assertEqual(values(zero), values(held))
 
 
+class Stages(Case):
+    """[[stage]]: runs that go on, of one scene."""
+
+    TEXT = blocks(FLOWS) + until(1, 3)
+    STAGES = """\
+[[stage]]
+name = "press"
+[[stage]]
+name = "hold"
+end = 2
+set = ["body.upper.boundary.3={ label = 3, uy = \\"held\\" }"]
+[[stage]]
+name = "lift"
+end = 2.5
+steps = 2
+set = ["body.upper.boundary.3.uy=", "body.upper.boundary.3.ty=-1"]
+"""
+
+    def test_equal_runs_by_hand(self):
+        self.write(self.TEXT + self.STAGES)
+        told = self.mortier("run", "scene.toml").stdout
+        self.assertEqual([line.split()[1] for line in told.splitlines() if line.startswith("stage ")],
+                         ["press", "hold", "lift"])
+        first = self.begin(self.TEXT)
+        self.assertEqual(values(self.summary_of("out/scene-press")), values(first))
+        held = self.TEXT.replace('ty = "-4*t"', 'uy = "held"').replace("end = 1", "end = 2")
+        second = self.run_it('start = "first"\n' + held + "[output]\nstate = true\n", folder="second")
+        self.assertEqual(values(self.summary_of("out/scene-hold")), values(second))
+        lifted = self.TEXT.replace('ty = "-4*t"', "ty = -1")
+        lifted = lifted.replace("end = 1\nsteps = 3", "end = 2.5\nsteps = 2")
+        third = self.run_it('start = "second"\n' + lifted, folder="third")
+        self.assertEqual(values(self.summary_of("out/scene")), values(third))
+        self.assertEqual(self.names("out"), ["scene", "scene-hold", "scene-press"])
+        self.write(self.TEXT + self.STAGES)
+        alone = self.mortier("run", "scene.toml", "--out", "alone", "--quiet", "--set", "stage=hold",
+                             "start=out/scene-press")
+        self.assertEqual((alone.stdout, values(self.summary_of("alone"))), ("", values(second)))
+
+    def test_are_checked_together(self):
+        self.write(self.TEXT + self.STAGES)
+        told = self.mortier("check", "scene.toml").stdout
+        self.assertEqual(told.count("0 errors"), 3)
+        self.write(self.TEXT + self.STAGES.replace("ty=-1", "ty=sqrt(t - 2)"))  # from its beginning on
+        self.mortier("check", "scene.toml")
+        self.write(self.TEXT + self.STAGES.replace("ty=-1", "ty=sqrt(t - 2.2)"))
+        found = mortier("check", "scene.toml", cwd=self.folder)
+        self.assertEqual(found.returncode, 2)
+        self.assertRegex(found.stdout, r"scene.toml:\d+: set body.upper.boundary.3.ty=sqrt\(t - 2.2\)")
+
+    def test_a_stage_without_a_solution_ends_the_run(self):
+        self.write(self.TEXT + self.STAGES.replace("3.ty=-1", "3.ty=1"))
+        self.mortier("run", "scene.toml", "--quiet", code=3)
+        self.assertEqual(self.names("out"), ["scene-hold", "scene-press", "scene.failed"])
+
+    def test_what_is_no_stage(self):
+        for change, message in (
+                (('name = "hold"', 'name = "press"'), 'name = "press", expected a name of its own'),
+                (('name = "hold"', 'name = "a b"'), "expected letters, digits, _ and -"),
+                (('name = "hold"', ""), "name is missing"),
+                (("end = 2\n", "end = 0.5\n"), "expected one after 1, the end of stage press"),
+                (("end = 2\n", "begin = 2\n"), "unknown key begin"),
+                (("body.upper.boundary.3.ty=-1", "body.upper.bounds=1"),
+                 ": set body.upper.bounds=1: no bounds in body")):
+            with self.subTest(message):
+                self.write(self.TEXT + self.STAGES.replace(*change))
+                found = mortier("run", "scene.toml", "--quiet", cwd=self.folder)
+                self.assertEqual(found.returncode, 2)
+                self.assertIn(message, found.stderr)
+                self.assertFalse((self.folder / "out").exists())
+        staged = self.TEXT + self.STAGES
+        self.refuse(staged, "--set stage=lower: stage: expected --set stage=NAME, one of press", "stage=lower")
+        self.refuse(staged, "expected --set start=DIR, the result of stage press", "stage=hold")
+        self.refuse(self.TEXT, "--set stage=press: the scene has no [[stage]]", "stage=press")
+
+
 class Refused(Case):
     def setUp(self):
         super().setUp()
