@@ -311,7 +311,8 @@ set = ["body.upper.boundary.3.uy=", "body.upper.boundary.3.ty=-1"]
                 self.assertIn(message, found.stderr)
                 self.assertFalse((self.folder / "out").exists())
         staged = self.TEXT + self.STAGES
-        self.refuse(staged, "--set stage=lower: stage: expected --set stage=NAME, one of press", "stage=lower")
+        self.refuse(staged, "--set stage=lower: stage: expected --set stage=NAME, one of press",
+                    "stage=lower")
         self.refuse(staged, "expected --set start=DIR, the result of stage press", "stage=hold")
         self.refuse(self.TEXT, "--set stage=press: the scene has no [[stage]]", "stage=press")
 

@@ -265,6 +265,8 @@ DIFFERENT = {
     "output.every": added("output.every=1"),
     "output.state": added("output.state=true"),
     "start": added("start=begun"),
+    **{f"stage.{key}": refused("the scene has no [[stage]]", "stage=one")  # going_on_test
+       for key in ("name", "end", "steps", "set")},
     # Of the plane.
     "plane": refused(NOT_IN_SPACE, "plane=strain"),
     "body.volume": added("body.upper.volume=averaged", ELASTIC),
