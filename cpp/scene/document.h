@@ -43,7 +43,7 @@ Node readDocument(const std::string& path, const std::string& text);
 
 /// A value as given to --set: TOML where it is TOML (6, true, "a", { x = 0 }), otherwise the text as a
 /// string.
-Node parseSetting(const std::string& text, const std::string& where, bool fromCommandLine);
+Node parseSetting(const std::string& text, const std::string& where, bool fromCommandLine = true);
 
 /// A number as a message shows it: the shortest decimal that reads back the same.
 std::string shortest(double value);

@@ -251,7 +251,7 @@ name = "press"
 [[stage]]
 name = "hold"
 end = 2
-set = ["body.upper.boundary.3={ label = 3, uy = \\"held\\" }"]
+set = ["body.upper.boundary.3.ty=", "body.upper.boundary.3.uy=held"]
 [[stage]]
 name = "lift"
 end = 2.5
