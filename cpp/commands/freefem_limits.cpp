@@ -19,7 +19,7 @@ namespace {
 
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
-  if (!scene.start.empty()) refuse(scene.startWhere + ": start", "none");
+  if (scene.goesOn()) refuse((scene.start.empty() ? scene.path : scene.startWhere) + ": start", "none");
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
   if (scene.time.scheme != Scheme::backwardEuler)
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");

@@ -128,7 +128,7 @@ void build(ResolvedScene resolved, LintReport& report) {
     Model model = buildModel(resolved);
     static_cast<void>(buildQuantities(scene, model));
     lintModel(asSolved(scene), model, report.faults);
-    if (scene.start.empty()) requireHeld(scene, model);  // from bodies at rest
+    if (!scene.goesOn()) requireHeld(scene, model);  // from bodies at rest
     lintSettling(scene, findInitialEquilibrium(scene, model, initialState(model)), report.faults);
     report.model = std::move(model);
   } catch (const InputError& error) {

@@ -132,7 +132,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
           std::any_of(body.regions.begin(), body.regions.end(),
                       [&](const RegionDescription& region) { return given(region.initialStress); });
   }
-  if (!any && input.scene.start.empty())
+  if (!any && !input.scene.goesOn())
     faults.add(
         "no-load", input.where({"body"}),
         "no traction, body force, prescribed displacement, temperature, interference or initial stress is "

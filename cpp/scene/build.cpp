@@ -103,7 +103,7 @@ Model buildModel(ResolvedScene& scene) {
       options.offsetOfMortar = tie.nonmortarSide == 1;
       addTie(model, pairOf(description, tie), options,
              tie.offset.empty() ? -1 : bodyIndex(description, tie.offset));
-      if (description.start.empty()) requireOneMotion(model, model.ties.back(), times);
+      if (!description.goesOn()) requireOneMotion(model, model.ties.back(), times);
       requireMemory(memoryNeed(model, description.solver), false);
     });
   }

@@ -235,6 +235,8 @@ struct SceneDescription {
   std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)
 
   [[nodiscard]] bool inSpace() const { return dimension == 3; }
+  /// Whether it does not begin from bodies at rest.
+  [[nodiscard]] bool goesOn() const { return !start.empty() || !after.empty(); }
 };
 
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.
