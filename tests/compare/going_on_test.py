@@ -288,7 +288,7 @@ set = ["body.upper.boundary.3.uy=", "body.upper.boundary.3.ty=-1"]
         self.write(self.TEXT + self.STAGES.replace("ty=-1", "ty=sqrt(t - 2.2)"))
         found = mortier("check", "scene.toml", cwd=self.folder)
         self.assertEqual(found.returncode, 2)
-        self.assertRegex(found.stdout, r"scene.toml:\d+: set body.upper.boundary.3.ty=sqrt\(t - 2.2\)")
+        self.assertRegex(found.stdout, r"scene.toml:\d+: error: set body.upper.boundary.3.ty=sqrt\(t - 2.2\)")
 
     def test_a_stage_without_a_solution_ends_the_run(self):
         self.write(self.TEXT + self.STAGES.replace("3.ty=-1", "3.ty=1"))
