@@ -14,7 +14,7 @@ title | | empty | a string | shown in results
 plane | | `"stress"` | `"stress"`, `"strain"`, `"axisymmetric"` | of all bodies: thin plates (s33 = 0), long
   bodies with no strain across the plane ([below](#plane-strain)), or bodies that turn about the axis x = 0
   ([below](#bodies-of-revolution))
-body, tool, contact, quantity, time, solver, output, check
+body, tool, contact, quantity, stage, time, solver, output, check
 start | | none: bodies as drawn, at rest | a result of a run with `output.state = true` | the run begins with
   the last state of that one, at its time ([below](#runs-that-go-on))
 dimension | | 2 | integer >= 2, at most 3 | 3: bodies of tetrahedra, without `plane`

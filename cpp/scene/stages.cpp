@@ -66,6 +66,9 @@ std::vector<std::string> stagesToRun(const std::string& path, const std::vector<
 }
 
 std::string applySettings(Node& document, const std::vector<std::string>& settings) {
+  const auto isOfStages = [](const std::string& setting) { return setting.starts_with("stage."); };
+  for (const std::string& setting : settings)
+    if (isOfStages(setting)) applyOverride(document, setting, "");
   const std::vector<LoadingStage> stages = stagesIn(document);
   const auto chosen = chosenBy(settings);
   std::string before;
@@ -86,7 +89,7 @@ std::string applySettings(Node& document, const std::vector<std::string>& settin
     throw InputError("--set " + *chosen + ": the scene has no [[stage]]");
   }
   for (const std::string& setting : settings)
-    if (!setting.starts_with(choice)) applyOverride(document, setting, "");
+    if (!setting.starts_with(choice) && !isOfStages(setting)) applyOverride(document, setting, "");
   return before;
 }
 

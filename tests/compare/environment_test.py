@@ -59,7 +59,7 @@ class Environment(OfTwoBlocks):
         written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])",
                                  CONTACT_KEYS + BODY_KEYS + ELASTIC_KEYS + FRICTION_KEYS + GEOMETRY_KEYS +
                                  SHAPE_KEYS + ONE_BODY + LAW_KEYS + TOOL_KEYS + SPACE_KEYS))
-        self.assertEqual(keys - written, {"start", "stage", "set"})  # of several runs: going_on_test
+        self.assertEqual(keys - written, {"start", "set"})  # of several runs: going_on_test
 
     def test_mutated_scenes_and_meshes(self):
         faults, codes = explore(PROGRAM, 0, 250, patience=1)
