@@ -1,6 +1,7 @@
 // [[stage]]: parts of the loading, each a run that goes on from the one before. A stage is the scene with the
 // settings of all stages up to it.
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 
 #include "base/error.h"
@@ -59,6 +60,8 @@ auto chosenBy(const std::vector<std::string>& settings) {
 
 std::vector<std::string> stagesToRun(const std::string& path, const std::vector<std::string>& settings) {
   std::vector<std::string> names;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return names;  // what can be read once only
   if (chosenBy(settings) == settings.end())
     for (const LoadingStage& stage : stagesIn(readDocument(path, readSceneText(path))))
       names.push_back(stage.name);

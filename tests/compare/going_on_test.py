@@ -283,7 +283,7 @@ set = ["body.upper.boundary.3.uy=", "body.upper.boundary.3.ty=-1"]
         self.write(self.TEXT + self.STAGES)
         self.mortier("run", "scene.toml", "--quiet", "--set", "stage.lift.end=2.25", "stage.lift.steps=1")
         self.assertEqual(self.rows_of("out/scene/history.csv")[-1]["time[s]"], "2.25")
-        self.refuse(self.TEXT, "expected tables [[stage]]", "stage.lift.end=2.25")
+        self.refuse(self.TEXT, "expected tables [[stage]]", "stage.end=2.25")
 
     def test_are_checked_together(self):
         self.write(self.TEXT + self.STAGES)
