@@ -151,7 +151,9 @@ class Planner {
     if (tie.stiffness > 0)
       why += " but for a layer of stiffness " + shortest(tie.stiffness) + " " + scene_.units.stress + "/" +
              scene_.units.length;
-    if (!tie.offset.empty()) why += ", " + tie.offset + " apart";
+    if (!tie.offset.empty()) why += ", moved apart by " + tie.offset;
+    for (size_t c = 0; c < (scene_.inSpace() ? 3 : 2); ++c)
+      if (!tie.along[c]) why += std::string(", free along ") + "xyz"[c];
     if (!toPoint && !tie.choice.empty()) why += "; " + tie.choice;
     add("tie " + std::to_string(k), true, what, why);
   }

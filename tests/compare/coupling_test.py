@@ -146,6 +146,8 @@ class Couplings(Case):
                 point = tool("plate", of.at, f'u{of.up} = "-0.02*t"')
                 ties = tie(("block", of.top), "plate", f'along = ["{of.up}"]')
                 coupled = self.run_it(of.body() + point + ties + of.numbers() + STEP)
+                self.assertIn("kinematic coupling of", (told := self.mortier("check", "scene.toml").stdout))
+                self.assertEqual([axis for axis in "xyz" if f"free along {axis}" in told], of.axes[:-1])
                 pressed = self.run_it(of.body(f'u{of.up} = "-0.02*t"') + of.numbers() + STEP)
                 self.assertAgree(values(coupled), values(pressed))
 
