@@ -4,6 +4,7 @@ import numpy as np
 
 import results
 from compare import Difference, Verdict, quantity_differences
+from ending import require
 
 NEAR = 0.2  # of a triangle: polygons of one curve differ
 OUTSIDE = 0.02  # of a body's area that may lie outside of the other mesh
@@ -106,11 +107,11 @@ def areas_of(corners):
 def located(body, points, name):
     """The triangle or tetrahedron of each point, the nearest one where it is outside; and whether it is
     inside, or outside by no more than NEAR of that element."""
-    from matplotlib.tri import Triangulation
-
     if body.tetrahedra is not None:
         found = tetrahedron_of(body.points[body.tetrahedra], points)
     else:
+        require("matplotlib")
+        from matplotlib.tri import Triangulation
         try:
             found = Triangulation(*body.points.T, body.triangles).get_trifinder()(*points.T)
         except (RuntimeError, ValueError) as error:

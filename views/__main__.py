@@ -77,18 +77,19 @@ def arguments(words):
 
 
 def plot(given):
-    require("numpy", "matplotlib", "meshio")
+    require("numpy", "meshio")
+    import runs
+
+    # 1. The runs, and what is wrong with the options before anything is drawn.
+    results = [runs.read(folder) for folder in given.results]
+    require("matplotlib")
     import contact_surface
     import curves
     import files
     import images
     import pictures
-    import runs
-
-    # 1. The runs, and what is wrong with the options before anything is drawn.
     if len(given.results) > len(curves.OF_RUNS):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
-    results = [runs.read(folder) for folder in given.results]
     space = in_space(results, given)
     if given.view and not space:
         raise Wrong("--view: for results in space only")
@@ -173,7 +174,7 @@ def make_report(given):
 
 def compare(given):
     """0: they agree, 1: they differ; of a run that fails, its own exit code."""
-    require("numpy", "matplotlib", "meshio")
+    require("numpy", "meshio", *(["matplotlib"] if given.picture else []))
     import comparison
 
     if given.within is not None and not given.within > 0:

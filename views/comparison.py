@@ -15,7 +15,7 @@ import codes
 import kept
 import results
 from compare import compare
-from ending import Wrong, shown
+from ending import Wrong, require, shown
 from other_meshes import compare_elsewhere, read_vtu_of, same_meshes
 
 
@@ -164,6 +164,7 @@ def largest(ours, other):
 
 
 def draw(place, run, path):
+    require("matplotlib")
     import files
     import images
     import pictures

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from support import PROGRAM, ROOT, InSharedFolder
+from support import PROGRAM, ROOT, InSharedFolder, answered_once
 from zsh_session import ZshSession
 
 BUILD = Path(PROGRAM).parent
@@ -35,7 +35,9 @@ class Install(InSharedFolder):
     def setUpClass(cls):
         super().setUpClass()
         cls.prefix = cls.folder / "prefix"
-        output("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        (cls.folder / "answers").mkdir()
+        cls.environment = answered_once("pandoc", cls.folder / "answers")
+        output("cmake", "--install", BUILD, "--prefix", cls.prefix, env=cls.environment)
 
     def test_another_project_finds_the_package(self):
         # Elsewhere, so that nothing of the source tree is seen by accident.
@@ -191,7 +193,7 @@ steps = 1
         self.check_completion(self.fish)
 
     def test_package_of_debian(self):
-        output("cpack", "-G", "DEB", "-B", self.folder / "packages", cwd=BUILD)
+        output("cpack", "-G", "DEB", "-B", self.folder / "packages", cwd=BUILD, env=self.environment)
         package, = (self.folder / "packages").glob("*.deb")
         facts = output("dpkg-deb", "--info", package)
         for name in ("libcholmod", "libumfpack", "libopenblas"):

@@ -75,7 +75,7 @@ class Refused(InFolder):
 
     def test_seeded_damage(self):
         (self.folder / "damaged").mkdir()
-        faults, codes = explore(self.folder / "damaged", 7, 40)
+        faults, codes = explore(self.folder / "damaged", 7, 25)
         self.assertEqual(faults, [])
         self.assertGreater(min(codes[0], codes[2]), 5)
 
@@ -159,7 +159,7 @@ class Refused(InFolder):
         self.assertIn("run.html: in the way", errors)
 
     def test_whole_or_not_at_all(self):
-        done = mortier("plot", "run", cwd=self.folder,
+        done = mortier("plot", "run", "--only", "fields", cwd=self.folder,
                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000)))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("cannot be written", done.stderr)

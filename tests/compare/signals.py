@@ -78,8 +78,8 @@ def cases():
         "rounds, space": (blocks(3, 3, 4, pushed, 1, ELASTIC), ["accuracy.energy=0.005",
                                                                 "accuracy.max_unknowns=300000"], 10),
         "rounds, bound": (blocks(2, 16, 20, waves, 1, ELASTIC), ["degree=1", "accuracy.energy=0.02",
-                                                                  "accuracy.bound=true"], 3),
-        "bound": (blocks(2, 100, 121, waves, 1, ELASTIC), ["degree=1", "accuracy.bound=true"], 3),
+                                                                  "accuracy.bound=true"], 0.2),
+        "bound": (blocks(2, 100, 121, waves, 1, ELASTIC), ["degree=1", "accuracy.bound=true"], 1.2),
         "factors, plane": (blocks(2, 200, 221, plane, 2, ELASTIC), [], 5),
         "factors, space": (blocks(3, 14, 16, space, 2, ELASTIC), [], 8),
         "steps, plane": (blocks(2, 40, 51, waves, 20, FLOWING), [], 3),
@@ -91,8 +91,9 @@ def cases():
 
 
 class Signals:
-    def __init__(self, folder, program=PROGRAM):
-        self.folder, self.program = Path(folder), program
+    def __init__(self, folder, program=PROGRAM, latest=float("inf")):
+        """latest: moment of a signal, in seconds of processor time"""
+        self.folder, self.program, self.latest = Path(folder), program, latest
         self.findings, self.latencies, self.restarted = [], [], 0
         self.codes = {}  # of runs without a signal
         ctypes.CDLL(None).prctl(36, 1)  # PR_SET_CHILD_SUBREAPER: children of a run that has ended are ours
@@ -141,10 +142,11 @@ class Signals:
 
     def try_one(self, name, rng, restarts):
         folder, (_, settings, seconds) = self.prepare(name), cases()[name]
-        moment, by = rng.uniform(0.02, seconds), rng.choice(SIGNALS)
+        moment, by = rng.uniform(0.02, min(seconds, self.latest)), rng.choice(SIGNALS)
+        goes_on = rng.random() < restarts
         process = self.start(self.command(settings, "out"), folder)
         while (now := processor_time(process.pid)) < moment and not ended(process.pid):
-            time.sleep(0.003)
+            time.sleep(max(0.003, (moment - now) / 4))  # it has a few threads and children
         os.kill(process.pid, by)  # Popen's own would take what it used, where it has ended
         used, errors = self.end(process)
         place, latency = f"{name}: {by.name} after {now:.2f} s", used - now
@@ -160,7 +162,7 @@ class Signals:
             faults += [f"left {made}"] if made else []
         elif not [*folder.glob("out.tmp-*/checkpoint")]:
             faults.append(f"no checkpoint in {made}: {told}")
-        elif rng.random() < restarts:
+        elif goes_on:
             code = self.whole(name)
             process = self.start([self.program, "run", "--restart", "out", "--quiet"], folder)
             _, errors = self.end(process)

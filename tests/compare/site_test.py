@@ -11,7 +11,7 @@ import urllib.parse
 from html.parser import HTMLParser
 
 from browser import Browser
-from support import ROOT, InSharedFolder
+from support import ROOT, InSharedFolder, answered_once
 
 SOURCES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE", "docs", "examples", "freefem/README.md",
            "shared-meshes/README.md")
@@ -47,10 +47,10 @@ await Promise.all([...document.images].map(async image => {
 return [...again]"""
 
 
-def make(root, out):
+def make(root, out, environment):
     """Exit code and what is said."""
     done = subprocess.run([sys.executable, root / "docs" / "site.py", out], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True)
+                          stderr=subprocess.STDOUT, text=True, env=environment)
     return done.returncode, done.stdout
 
 
@@ -76,9 +76,13 @@ class Site(InSharedFolder):
     def setUpClass(cls):
         super().setUpClass()
         cls.site = cls.folder / "site"
-        code, cls.said = make(ROOT, cls.site)
+        (cls.folder / "answers").mkdir()
+        cls.environment = answered_once("pandoc", cls.folder / "answers")
+        code, cls.said = make(ROOT, cls.site, cls.environment)
         assert code == 0, cls.said
         cls.pages = {path.resolve(): Page(path) for path in sorted(cls.site.rglob("*.html"))}
+        cls.browser = Browser(network=True)
+        cls.addClassCleanup(cls.browser.close)
 
     def test_every_address_is_in_the_site(self):
         checked = 0
@@ -110,8 +114,7 @@ class Site(InSharedFolder):
         self.assertGreater(formulas, 300)
 
     def test_pages_in_a_browser(self):
-        browser = Browser(network=True)
-        self.addCleanup(browser.close)
+        browser = self.browser
         folder = self.site.resolve().as_uri()
         for path in self.pages:
             with self.subTest(str(path.relative_to(self.site))):
@@ -143,8 +146,7 @@ class Site(InSharedFolder):
 
     def test_search(self):
         """Words are found where they stand, in pages at any depth; the index is loaded when it is needed."""
-        browser = Browser(network=True)
-        self.addCleanup(browser.close)
+        browser = self.browser
         index = f"{self.site.resolve().as_uri()}/search-index.js"
         hits = "return [...document.querySelectorAll('#found a')].map(a => [a.href, a.textContent])"
         for page in ("index.html", "docs/scene.html", "docs/notebooks/note.html"):
@@ -205,7 +207,7 @@ class Site(InSharedFolder):
         for name, formula in (("study", "$\\nothing{x}$"), ("compare", "$a\n- b$")):
             with (copy / "docs" / f"{name}.md").open("a") as other:
                 other.write(f"\n{formula}\n")
-        code, said = make(copy, out)
+        code, said = make(copy, out, self.environment)
         self.assertEqual(code, 1)
         self.assertIn("site: docs/study.md: [WARNING] Could not convert TeX math", said)
         self.assertIn("site: docs/compare.md: this formula is not read as one: $a", said)
@@ -217,11 +219,11 @@ class Site(InSharedFolder):
         mine = self.folder / "mine"
         mine.mkdir()
         (mine / "thesis.tex").write_text("kept")
-        code, said = make(ROOT, mine)
+        code, said = make(ROOT, mine, self.environment)
         self.assertEqual((code, said.count("\n")), (2, 1), said)
         self.assertEqual([path.name for path in mine.iterdir()], ["thesis.tex"])
         before = {path: path.read_bytes() for path in self.site.rglob("*") if path.is_file()}
-        self.assertEqual(make(ROOT, self.site)[0], 0)
+        self.assertEqual(make(ROOT, self.site, self.environment)[0], 0)
         self.assertEqual(set(before), {path for path in self.site.rglob("*") if path.is_file()})
         for path, data in before.items():
             self.assertTrue(path.read_bytes() == data, path)

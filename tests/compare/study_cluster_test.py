@@ -1,6 +1,6 @@
 """mortier study --scheduler: the same table as on this machine, each run once, whatever workers do.
 
-MORTIER_LONG_STUDY=1: 200 runs instead of 24.
+MORTIER_LONG_STUDY=1: 200 runs instead of 16.
 """
 import json
 import os
@@ -116,7 +116,7 @@ class Cluster(StudyTest):
         self.assertEqual(list((self.folder / "worker 1").rglob("*.mesh")), [])
 
     def test_a_worker_that_is_killed_and_one_that_comes_late(self):
-        count = 200 if LONG else 24
+        count = 200 if LONG else 16
         self.many(count)
         first = [self.worker(self.program), self.worker(self.program)]
         process = self.begin()
@@ -196,10 +196,10 @@ class Cluster(StudyTest):
         self.assertFalse(self.out.exists())
         done = self.study("--scheduler", "no address", code=2)
         self.assertEqual(len(done.stderr.splitlines()), 1)
-        self.many(12)
+        self.many(8)
         self.worker(self.program)
         process = self.begin()
-        while "2/12" not in process.stdout.readline():
+        while "2/8" not in process.stdout.readline():
             self.assertIsNone(process.poll())
         self.end(self.scheduler)
         _, errors = process.communicate(timeout=HANGS)
@@ -207,7 +207,7 @@ class Cluster(StudyTest):
         self.assertRegex(errors, r"^mortier: \S+: the scheduler at \S+ is gone\n$")
         kept = len(self.rows())
         self.assertGreaterEqual(kept, 2)
-        self.assertIn(f"12 runs, {kept} of them done before", self.study().stdout)
+        self.assertIn(f"8 runs, {kept} of them done before", self.study().stdout)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -97,6 +98,22 @@ def script(name, *arguments):
     done = subprocess.run([sys.executable, str(COMPARE / name), *map(str, arguments)], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
+
+
+def answered_once(program, folder):
+    """An environment where `program` is run once for the same words and the same standard input; the file of
+    --template is the same wherever it stands."""
+    script = folder / program
+    script.write_text(f"""#!/bin/sh
+asked=$(mktemp "{folder}/asked.XXXXXX")
+cat > "$asked"
+key="{folder}/$( (printf '%s\\n' "$@" | sed '/^--template$/,+1d'; cat "$asked") | sha256sum | cut -c -64)"
+[ -e "$key" ] || {shutil.which(program)} "$@" < "$asked" > "$key.new" || exit
+[ -e "$key" ] || mv "$key.new" "$key"
+cat "$key"
+""")
+    script.chmod(0o755)
+    return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
 
 
 class InFolder(unittest.TestCase):

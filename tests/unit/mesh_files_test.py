@@ -10,7 +10,10 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
-from support import InFolder, mortier, warned  # noqa: E402
+from support import ROOT, InFolder, mortier, warned  # noqa: E402
+
+sys.path.insert(0, str(ROOT / "views"))
+import mesh_files  # noqa: E402
 
 EDGES = {"triangle": ((0, 1), (1, 2), (2, 0)), "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
          "tetra": ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
@@ -167,11 +170,14 @@ class MeshFiles(InFolder):
 
     def test_abaqus(self):
         for (kind, quadratic), types in ABAQUS.items():
-            strip = Strip(kind, quadratic)
-            for each in types:
+            strip, path = Strip(kind, quadratic), str(self.folder / "a.inp")
+            self.write(inp(strip, types[0]), "a.inp")
+            self.is_strip(strip, "a.inp")
+            read = mesh_files.answer(path)
+            for each in types[1:]:  # without a process each
                 with self.subTest(each):
                     self.write(inp(strip, each), "a.inp")
-                    self.is_strip(strip, "a.inp")
+                    self.assertEqual(mesh_files.answer(path), read)
 
     def test_medit_with_and_without_end(self):
         for kind in SIMPLICES:
@@ -218,6 +224,7 @@ class MeshFiles(InFolder):
     def test_damaged_files(self):
         sound = inp(Strip("tetra"), "C3D4")
         flat = inp(Strip("triangle"), "CPS3")
+        seen = set()
         for of, text, message in [
                 ("a.inp", sound.replace("101, 0.0,", "101, nan,"),
                  "a.inp:4: node 101 at nan, 0.0, 0.0, expected"),
@@ -255,7 +262,9 @@ class MeshFiles(InFolder):
         ]:
             with self.subTest(message):
                 self.write(text, of)
-                self.refused(message, "mesh", "info", of)
+                if of not in seen:
+                    self.refused(message, "mesh", "info", of)
+                seen.add(of)
                 self.write("mine", "b.mesh")
                 self.refused(message, "mesh", "convert", of, "b.mesh")
                 self.assertEqual(self.read("b.mesh"), "mine")
