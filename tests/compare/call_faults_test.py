@@ -21,7 +21,7 @@ class CallFaults(unittest.TestCase):
     def test_a_lock_that_may_not_be_taken(self):
         """All of the calls with which a restart takes the stopped run, and a run anew takes it away."""
         for name, calls in (("restart over an old result", range(56, 66)),
-                            ("anew instead of a restart", range(527, 545))):
+                            ("anew instead of a restart", range(538, 560))):
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 sweep = Sweep(folder)
                 done = [sweep.try_one(name, *sweep.cases[name], "EACCES", at) for at in calls]

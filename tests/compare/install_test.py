@@ -35,8 +35,8 @@ class Install(InSharedFolder):
     def setUpClass(cls):
         super().setUpClass()
         cls.prefix = cls.folder / "prefix"
-        (cls.folder / "answers").mkdir()
-        cls.environment = answered_once("pandoc", cls.folder / "answers")
+        (cls.folder / "pandoc-answers").mkdir()
+        cls.environment = answered_once("pandoc", cls.folder / "pandoc-answers")
         output("cmake", "--install", BUILD, "--prefix", cls.prefix, env=cls.environment)
 
     def test_another_project_finds_the_package(self):

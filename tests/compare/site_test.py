@@ -76,8 +76,8 @@ class Site(InSharedFolder):
     def setUpClass(cls):
         super().setUpClass()
         cls.site = cls.folder / "site"
-        (cls.folder / "answers").mkdir()
-        cls.environment = answered_once("pandoc", cls.folder / "answers")
+        (cls.folder / "pandoc-answers").mkdir()
+        cls.environment = answered_once("pandoc", cls.folder / "pandoc-answers")
         code, cls.said = make(ROOT, cls.site, cls.environment)
         assert code == 0, cls.said
         cls.pages = {path.resolve(): Page(path) for path in sorted(cls.site.rglob("*.html"))}
