@@ -7,8 +7,9 @@ stresses 1e-12 to 1e3 of the load or none, viscosities from almost elastic to al
 partial overlap, gaps of either sign, eccentric loads that grow, wave or turn round, both planes, all schemes,
 projections and couplings.
 
-Exit code 0 is asked for. 3 is right where contact alone holds a body and the load takes it away. 1 has to be
-rare, with a reason; a run that takes longer than PATIENCE is a fault whatever it would have ended with.
+Exit code 0 is asked for. 3 is right where contact alone holds a body and the load takes it away, 1 where a
+body between two others flows until these overlap, which no contact joins. Any other 1 has to be rare, with a
+reason; a run that takes longer than PATIENCE is a fault whatever it would have ended with.
 
     tests/compare/random_scenes.py [--choices | --space] [--count 100] [--first SEED] [--jobs N]
                                    [--mortier PROGRAM]
@@ -19,6 +20,7 @@ import sys
 
 from contact_support import command, meshed, solve
 
+OVERLAPS = "no [[contact]] names label"
 PATIENCE = 25  # seconds of processor time: seed 216 takes 10 to 15
 
 
@@ -173,7 +175,8 @@ def run_of(program, seed, kind=Scene):
 def examined(program, seed, choices=False, space=False):
     of = importlib.import_module("random_choices")
     _, run = run_of(program, seed, of.SpaceScene if space else of.WideScene if choices else Scene)
-    return f"exit {run.code}", [] if run.code in (0, 3) else [run.end]
+    right = run.code in (0, 3) or (run.code == 1 and OVERLAPS in run.told)
+    return f"exit {run.code}", [] if right else [run.end]
 
 
 if __name__ == "__main__":

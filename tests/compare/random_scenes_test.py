@@ -3,7 +3,7 @@ import unittest
 
 from random_choices import SpaceScene, WideScene
 from random_equalities import TOLERANCE, compare
-from random_scenes import Scene, run_of
+from random_scenes import Scene, examined, run_of
 from support import PROGRAM
 
 COUNT = 120
@@ -39,6 +39,8 @@ SHORT_LIVED = 1082
 FOLLOWING = 1945
 # No method solves a step, unless it is 1e-8 of the run.
 CRAWLING = 504
+# The middle one of three bodies is squeezed by its whole height, and the others overlap.
+SQUEEZED = 684
 # No load acts on the bodies, and the middle one floats, in one scene the top one too: forces are the rounding
 # of distances.
 UNLOADED = 1759
@@ -99,6 +101,9 @@ class RandomScenes(unittest.TestCase):
                     self.assertIn(run.code, (0, code), run.told)
                     if run.code:
                         self.assertRegex(run.told, reason)
+
+    def test_an_overlap_of_bodies_that_no_contact_joins_is_no_fault(self):
+        self.assertEqual(examined(PROGRAM, SQUEEZED), ("exit 1", []))
 
     def test_a_body_that_floats_is_named_or_left_where_it_is(self):
         for kind, seeds in ((Scene, (UNLOADED,)), (WideScene, FLOATING)):
