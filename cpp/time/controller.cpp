@@ -207,12 +207,11 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
   return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
 }
 
-StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
-                                Judgement& judgement) {
+StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, int onsets, Judgement& judgement) {
   constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
   constexpr double late = 0.95;
   constexpr double shorter = 0.8;
-  StepOutcome outcome = taker.attempt(t1, effort);
+  StepOutcome outcome = taker.attempt(t1);
   if (!outcome.converged() || outcome.method == SolutionMethod::rest) return outcome;
   judgement = judge(taker, t0, t1);
   const bool turned = onsets > 0 && turnsTooFar(taker);
@@ -231,7 +230,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   constexpr double rounding = 1e-4;  // of what a step may be wrong by: many steps of that are nothing too
   const bool changes = judgement.change > rounding * memory_.controller.local;
   if (!changes || (!judgement.good && !turns) || !taker.flowReversed()) return outcome;
-  outcome = taker.guard(outcome, effort);
+  outcome = taker.guard(outcome);
   if (outcome.converged()) judgement = judge(taker, t0, t1);
   return outcome;
 }
@@ -249,12 +248,10 @@ bool Controller::stepsTooSmall(double t, double k) const {
 }
 
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
-  constexpr int patience = 14;     // attempts in a row that cannot be solved
-  constexpr double allFlow = 0.9;  // of the points: where Newton's method then fails the load turns,
-  constexpr int easy = 2;          // and a shorter step costs less than the methods that come after it
+  constexpr int patience = 14;  // attempts in a row that cannot be solved
   int failures = 0;
   ControllerMemory& own = memory_.controller;
-  const double flowing = taker.flowing();
+  const bool elastic = taker.flowing() == 0;
   const auto giveUp = [&](Status status, double t1, const std::string& why) {
     report.status = status;
     report.reason = formatted("step %d at t = %g: ", report.step, t1) + why;
@@ -266,9 +263,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, end,
                     "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
-    const bool hurried = flowing >= allFlow && failures < easy && !hasFriction_;
-    Attempt step = attemptOfPair(taker, state.time, end, hurried ? Effort::little : Effort::usual,
-                                 flowing == 0 ? mostOnsets - report.rejections : 0);
+    Attempt step = attemptOfPair(taker, state.time, end, elastic ? mostOnsets - report.rejections : 0);
     const StepOutcome& outcome = step.outcome;
     const Judgement& judgement = step.judgement;
     const double t1 = step.t1;

@@ -72,10 +72,9 @@ class Controller {
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow
-  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
-                      Judgement& judgement);
+  StepOutcome attempt(StepTaker& taker, double t0, double t1, int onsets, Judgement& judgement);
   /// \param end  of the step, or of the pair that it begins
-  Attempt attemptOfPair(StepTaker& taker, double t0, double end, Effort effort, int onsets);
+  Attempt attemptOfPair(StepTaker& taker, double t0, double end, int onsets);
   /// Solves the second step of a pair, to `end`, and compares the pair with one step.
   /// \returns whether it is good \param factor  by which the next pair may be longer
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);

@@ -32,17 +32,16 @@ void Controller::carrySlip(const StepTaker& taker, std::vector<Vector> slip) {
   own.slip = std::move(slip);
 }
 
-Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, Effort effort,
-                                              int onsets) {
+Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, int onsets) {
   Attempt step{end};
   if (inPair(t0)) {
     if (second_ && second_->t1 == end) return *std::exchange(second_, std::nullopt);
-    step.outcome = attempt(taker, t0, end, Effort::usual, 0, step.judgement);
+    step.outcome = attempt(taker, t0, end, 0, step.judgement);
     step.judgement.good = true;  // as it was when the pair was begun
     return step;
   }
   if (hasFriction_ && !isShortest(t0, end - t0)) {  // no time lies within a jump
-    step.outcome = taker.attempt(end, effort);
+    step.outcome = taker.attempt(end);
     if (!step.outcome.converged() || step.outcome.method == SolutionMethod::rest) return step;
     addTo(step.missed, -1, taker.slip());
     addTo(step.missed, -1, {taker.slipBeforeClosing(), 0, {}});
@@ -50,7 +49,7 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
     step.beginsPair = true;
   }
   const StepOutcome once = step.outcome;
-  step.outcome = attempt(taker, t0, step.t1, effort, onsets, step.judgement);
+  step.outcome = attempt(taker, t0, step.t1, onsets, step.judgement);
   step.outcome.iterations += once.iterations;
   step.outcome.factorisations += once.factorisations;
   if (step.beginsPair && step.outcome.converged()) {
@@ -65,7 +64,7 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
   constexpr double largest = 2;  // nodes change one by one: that none did in a pair says little of the next
   ControllerMemory& own = memory_.controller;
   Attempt second{end};
-  second.outcome = attempt(taker, first.t1, end, Effort::usual, 0, second.judgement);
+  second.outcome = attempt(taker, first.t1, end, 0, second.judgement);
   bool good = second.outcome.converged() && second.judgement.good;
   if (good) {
     SlipAndWork missed = first.missed;

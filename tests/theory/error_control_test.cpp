@@ -78,6 +78,23 @@ TEST(ErrorControl, interpolationDoesNotStall) {
   EXPECT_LT(result.run.iterations, solvesOfEqualSteps);
 }
 
+// Triangles that yield one after the other stop Newton's method alone, of shorter steps as well: the methods
+// that come after it solve steps as long as the tolerance allows.
+TEST(ErrorControl, toleranceAndNotTheMethodDecidesHowManySteps) {
+  constexpr double reference = -0.404520189;
+  constexpr int most = 20;
+  for (const double tolerance : {6e-4, 4.8e-4, 3.84e-4, 3.07e-4}) {
+    TimePlan plan = controlled(1, tolerance);
+    plan.steps = 100;  // the first one is as long as one of these
+    const NotesRun result = notesRun(CouplingKind::interpolation, plan);
+    const double error = std::abs(result.top / reference - 1);
+    print("tolerance " + std::to_string(tolerance), result.run);
+    std::cout << ", error " << error << "\n";
+    EXPECT_LT(error, tolerance);
+    EXPECT_LE(result.run.steps, most);
+  }
+}
+
 TEST(ErrorControl, backwardEulerMeetsATolerance) {
   const NotesRun result = notesRun(CouplingKind::mortar, controlled(1, 1e-2, Scheme::backwardEuler));
   const double error = std::abs(result.top / exactTop - 1);
