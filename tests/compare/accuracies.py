@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from scene_parts import body, box, contact, elastic, shape, timed
 from support import ROOT
 import codes  # behind support: they are in compare/
 import results
@@ -19,84 +20,64 @@ from measure import field_error  # noqa: E402
 CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
 
 
-def body(name, shape, material, boundary):
-    return (f"[[body]]\nname = \"{name}\"\nmesh = {{ {shape} }}\nmaterial = {{ {material} }}\n"
-            f"boundary = [ {boundary} ]\n")
-
-
-def rectangle(lower, upper, cells):
-    return f'shape = "rectangle", lower = {lower}, upper = {upper}, cells = {cells}'
-
-
 def ring(inner, outer, cells):
-    return (f'shape = "annulus", inner = {inner}, outer = {outer}, cells = {cells}, span = "quarter", '
-            'cut = "rising"')
-
-
-def elastic(young, poisson=0.3):
-    return f"young = {young!r}, poisson = {poisson}"
+    return shape("annulus", inner=inner, outer=outer, cells=cells, span="quarter", cut="rising")
 
 
 def flowing(young, viscosity=1.0, yield_stress=1.0, more=""):
-    return elastic(young) + f", viscosity = {viscosity}, yield_stress = {yield_stress}" + more
+    return elastic(young, 0.3) + f", viscosity = {viscosity}, yield_stress = {yield_stress}" + more
 
 
-def contact(nonmortar, mortar, more=""):
-    one, two = (f'{{ body = "{name}", label = {label} }}' for name, label in (nonmortar, mortar))
-    return f"[contact]\nnonmortar = {one}\nmortar = {two}\n{more}"
+def either(swapped, one, two, **keys):
+    # The equations are linear: displacements have no scale.
+    return contact(*((two, one) if swapped else (one, two)), sliding="allow", **keys)
 
 
-def either(swapped, one, two, more=""):
-    more += 'sliding = "allow"\n'  # the equations are linear: displacements have no scale
-    return contact(two, one, more) if swapped else contact(one, two, more)
-
-
-ONE_STEP = "[time]\nend = 1\nsteps = 1\n"
-SECOND_ORDER = '[time]\nend = 1\nsteps = 10\nscheme = "sdirk2"\n'
-HELD = "{ label = 1, ux = 0, uy = 0 }"
-ROLLERS = "{ label = 3, uy = 0 }, { label = 4, ux = 0 }"
+SECOND_ORDER = timed(10, scheme="sdirk2")
+HELD = "label = 1, ux = 0, uy = 0"
+ROLLERS = "label = 3, uy = 0", "label = 4, ux = 0"
 
 
 def pressed(young, swapped):
     """Blocks of one width under a pressure that varies."""
-    return (body("upper", rectangle([0, 0], [1, 1], [2, 2]), elastic(young),
-                 '{ label = 4, ux = 0 }, { label = 3, ty = "-1 - 0.8*cos(pi*x)" }') +
-            body("lower", rectangle([0, -1], [1, 0], [3, 3]), elastic(1.0), HELD) +
-            either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
+    return (body("upper", box([0, 0], [1, 1], [2, 2]), young,
+                 'label = 4, ux = 0', 'label = 3, ty = "-1 - 0.8*cos(pi*x)"') +
+            body("lower", box([0, -1], [1, 0], [3, 3]), 1.0, HELD) +
+            either(swapped, ("upper", 1), ("lower", 3)) + timed())
 
 
 def shrink(young, swapped):
     """A ring in a ring that is too narrow for it, turned up by a load."""
-    return (body("inner", ring(1, 2.002, [4, 2]), elastic(young),
-                 ROLLERS + ', { label = 1, pressure = "0.001*x" }') +
-            body("outer", ring(2, 3, [5, 2]), elastic(1.0), ROLLERS) +
-            either(swapped, ("inner", 2), ("outer", 1)) + ONE_STEP)
+    return (body("inner", ring(1, 2.002, [4, 2]), young,
+                 *ROLLERS, 'label = 1, pressure = "0.001*x"') +
+            body("outer", ring(2, 3, [5, 2]), 1.0, *ROLLERS) +
+            either(swapped, ("inner", 2), ("outer", 1)) + timed())
 
 
 def lame(plane, load):
     return (f'plane = "{plane}"\n' +
-            body("ring", ring(1, 2, [3, 2]), elastic(1.0), ROLLERS + f", {{ {load} }}") + ONE_STEP)
+            body("ring", ring(1, 2, [3, 2]), 1.0, *ROLLERS, load) + timed())
 
 
 def cylinder(pressure, viscosity):
     return ('plane = "strain"\n' +
             body("ring", ring(1, 2, [3, 2]), flowing(100.0, viscosity),
-                 ROLLERS + f', {{ label = 1, pressure = "{pressure}*t" }}') + SECOND_ORDER)
+                 *ROLLERS, f'label = 1, pressure = "{pressure}*t"') + SECOND_ORDER)
 
 
 def ramp(plane, young, load, more=""):
     return (f'plane = "{plane}"\n' +
-            body("square", rectangle([0, 0], [1, 1], [2, 2]), flowing(young, 1.0, 1.0, more),
-                 f'{{ label = 1, uy = 0 }}, {{ label = 4, ux = 0 }}, {{ label = 3, ty = "{load}" }}') +
+            body("square", box([0, 0], [1, 1], [2, 2]), flowing(young, 1.0, 1.0, more),
+                 'label = 1, uy = 0', 'label = 4, ux = 0', f'label = 3, ty = "{load}"') +
             SECOND_ORDER)
 
 
 def flowing_blocks(contrast, swapped, plane="stress"):
     return (f'plane = "{plane}"\n' +
-            body("upper", rectangle([0, 0], [1, 1], [2, 2]), flowing(100.0 * contrast),
-                 '{ label = 4, ux = 0 }, { label = 3, ty = "-t*(1 + 0.8*cos(pi*x))" }') +
-            body("lower", rectangle([0, -1], [1, 0], [3, 3]), flowing(100.0),
-                 '{ label = 1, uy = 0 }, { label = 4, ux = 0 }') +
+            body("upper", box([0, 0], [1, 1], [2, 2]), flowing(100.0 * contrast),
+                 'label = 4, ux = 0', 'label = 3, ty = "-t*(1 + 0.8*cos(pi*x))"') +
+            body("lower", box([0, -1], [1, 0], [3, 3]), flowing(100.0),
+                 'label = 1, uy = 0', 'label = 4, ux = 0') +
             either(swapped, ("upper", 1), ("lower", 3)) + SECOND_ORDER)
 
 
@@ -150,17 +131,17 @@ def random_case(seed):
     drive = rng.choice(["traction", "traction", "force", "displacement", "gap"])
     wide, start = rng.choice([(1, 0), (1, 0), (3, -1)])
     size = 0.01 * min(1, young)
-    top = f'{{ label = 3, ty = "-{size!r}*t*{datum(rng, "x")}" }}' if drive in ("traction", "force") else \
-        f'{{ label = 3, uy = "-0.01*t*{datum(rng, "x", False) if drive == "displacement" else "1"}" }}'
-    weight = f'force = {{ y = "-{size!r}*t*{datum(rng, "y")}*{datum(rng, "x")}" }}\n'
-    more = f'gap = "0.003*{datum(rng, "x", False)}"\n' if drive == "gap" else ""
-    cut = f', cut = "{rng.choice(["rising", "both"])}"'
+    top = f'label = 3, ty = "-{size!r}*t*{datum(rng, "x")}"' if drive in ("traction", "force") else \
+        f'label = 3, uy = "-0.01*t*{datum(rng, "x", False) if drive == "displacement" else "1"}"'
+    weight = {"y": f'-{size!r}*t*{datum(rng, "y")}*{datum(rng, "x")}'}
+    gap = f'0.003*{datum(rng, "x", False)}' if drive == "gap" else None
+    cut = rng.choice(["rising", "both"])
     scene = (f'plane = "{rng.choice(["stress", "strain"])}"\n' +
-             body("upper", rectangle([0, 0], [1, 1], cells[0]) + cut, elastic(young, poisson[0]),
-                  "{ label = 4, ux = 0 }, " + top) + (weight if drive == "force" else "") +
-             body("lower", rectangle([start, -1], [start + wide, 0], cells[1]) + cut,
+             body("upper", box([0, 0], [1, 1], cells[0], cut=cut), elastic(young, poisson[0]),
+                  "label = 4, ux = 0", top, force=weight if drive == "force" else None) +
+             body("lower", box([start, -1], [start + wide, 0], cells[1], cut=cut),
                   elastic(1.0, poisson[1]), HELD) +
-             either(rng.random() < 0.5, ("upper", 1), ("lower", 3), more) + ONE_STEP)
+             either(rng.random() < 0.5, ("upper", 1), ("lower", 3), gap=gap) + timed())
     accuracy = 10 ** rng.uniform(-1.3, -0.6) if degree == 1 else 10 ** rng.uniform(-2.3, -1)
     return scene, {"upper": (young, poisson[0]), "lower": (1.0, poisson[1])}, accuracy, degree
 
@@ -195,8 +176,8 @@ def flowing_ring(cells, degree):
     """A thick cylinder of which a part flows, on equal cells, with equal steps."""
     return (f'plane = "strain"\ndegree = {degree}\n' +
             body("ring", ring(1, 2, [2 * cells, cells]), flowing(100.0),
-                 ROLLERS + ', { label = 1, pressure = "0.75*t" }') +
-            f"[time]\nend = 1\nsteps = {FLOW_STEPS}\n")
+                 *ROLLERS, 'label = 1, pressure = "0.75*t"') +
+            timed(FLOW_STEPS))
 
 
 def flow_orders(cells, better):

@@ -6,71 +6,26 @@ import subprocess
 import time
 import unittest
 
+from scene_parts import body, box, contact, timed
 from scenes import TWO_BLOCKS
 from shape_scenes import SHAPE_KEYS
 from support import PROGRAM, InFolder
 
 # A stiff punch in the middle of a block, meshes as coarse as they can be.
-PUNCH = """\
-[[body]]
-name = "punch"
-mesh = { shape = "rectangle", lower = [-0.5, 0], upper = [0.5, 1], cells = 1 }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0, uy = "-0.01*t" } ]
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [-2, -2], upper = [2, 0], cells = [3, 2] }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[contact]
-nonmortar = { body = "punch", label = 1 }
-mortar = { body = "block", label = 3 }
-[time]
-end = 1
-steps = 1
-[accuracy]
-energy = 0.15
-"""
+PUNCH = (body("punch", box([-0.5, 0], [0.5, 1], 1), 1000, 'label = 3, ux = 0, uy = "-0.01*t"')
+         + body("block", box([-2, -2], [2, 0], [3, 2]), 1, "label = 1, ux = 0, uy = 0")
+         + contact(("punch", 1), ("block", 3)) + timed() + "[accuracy]\nenergy = 0.15\n")
 
-BETWEEN = """\
-[[body]]
-name = "b0"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 2 }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "b1"
-mesh = { shape = "rectangle", lower = [0, 1.000001], upper = [1, 2], cells = 3 }
-material = { young = 1e3, poisson = 0.3, viscosity = 0.02, yield_stress = 0.05 }
-boundary = [ { label = 4, ux = 0 } ]
-[[body]]
-name = "b2"
-mesh = { shape = "rectangle", lower = [0, 2.000001], upper = [1, 3], cells = 2 }
-material = { young = 17, poisson = 0 }
-boundary = [ { label = 3, DRIVE }, { label = 4, ux = 0 } ]
-[[contact]]
-nonmortar = { body = "b1", label = 1 }
-mortar = { body = "b0", label = 3 }
-[[contact]]
-nonmortar = { body = "b2", label = 1 }
-mortar = { body = "b1", label = 3 }
-[time]
-end = 1
-steps = 1
-"""
+BETWEEN = (body("b0", box([0, 0], [1, 1], 2), 1e3, "label = 1, ux = 0, uy = 0")
+           + body("b1", box([0, 1.000001], [1, 2], 3),
+                  "young = 1e3, poisson = 0.3, viscosity = 0.02, yield_stress = 0.05", "label = 4, ux = 0")
+           + body("b2", box([0, 2.000001], [1, 3], 2), "young = 17, poisson = 0", "label = 3, DRIVE",
+                  "label = 4, ux = 0") + contact(("b1", 1), ("b0", 3)) + contact(("b2", 1), ("b1", 3))
+           + timed())
 
-FLOWING = """\
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", cells = 1, cut = "both" }
-material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
-boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = "-1.5*t*(1 + 0.5*x)" } ]
-[time]
-end = 1
-steps = 5
-[accuracy]
-energy = 0.1
-"""
+FLOWING = (body("block", box([0, 0], [1, 1], 1, cut="both"),
+                "young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1", "label = 1, ux = 0, uy = 0",
+                'label = 3, ty = "-1.5*t*(1 + 0.5*x)"') + timed(5) + "[accuracy]\nenergy = 0.1\n")
 
 
 class Accuracy(InFolder):
@@ -260,16 +215,8 @@ largest_pressure = { body = "block", label = 3 }
             x, y, _ = text[i].split()
             text[i] = f"{x} {0.8 * float(y)} 0"
         self.write("\n".join(text), "ring.mesh")
-        scene = """
-[[body]]
-name = "ring"
-mesh = "ring.mesh"
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 2, pressure = 1 } ]
-[time]
-end = 1
-steps = 1
-"""
+        scene = (body("ring", '"ring.mesh"', 1, "label = 1, ux = 0, uy = 0", "label = 2, pressure = 1")
+                 + timed())
         _, summary = self.run_scene(scene, "--accuracy", "0.3")
         self.assertTrue(any("label 1 is a polygon" in each for each in summary["accuracy"]["not_reliable"]))
 

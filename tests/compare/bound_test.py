@@ -3,6 +3,7 @@ import cmath
 import re
 import unittest
 
+from scene_parts import quantity
 from scenes import HELD_AND_PRESSED, TWO_BLOCKS
 from support import ROOT, OfTwoBlocks
 
@@ -90,18 +91,9 @@ class Bound(OfTwoBlocks):
         self.assertAlmostEqual(ratio, 1, delta=1e-9)
 
     def test_estimates_are_called_so(self):
-        self.write(ELASTIC + BOUND + HELD_AND_PRESSED + """\
-[[quantity]]
-name = "mean"
-mean_pressure = { body = "lower", label = 3 }
-[[quantity]]
-name = "peak"
-largest_pressure = { body = "lower", label = 3 }
-[[quantity]]
-name = "sinks"
-displacement = { body = "upper", point = [0.3, 0.8] }
-component = "y"
-""")
+        self.write(ELASTIC + BOUND + HELD_AND_PRESSED + quantity("mean", "mean_pressure", "lower", 3)
+                   + quantity("peak", "largest_pressure", "lower", 3)
+                   + quantity("sinks", "displacement", "upper", component="y", point=[0.3, 0.8]))
         log = self.mortier("run", "scene.toml", "--out", "out", "--set",
                            "contact.variant=interpolation").stdout
         found = {name: each["bound"]
@@ -179,16 +171,8 @@ component = "y"
         self.assertGreater(unknowns[1], 1.2 * unknowns[0])
 
     def test_quantities_have_bounds(self):
-        asked = HELD_AND_PRESSED + """
-[[quantity]]
-name = "sinks"
-displacement = { body = "upper", label = 3 }
-component = "y"
-[[quantity]]
-name = "at"
-displacement = { body = "upper", point = [0.25, 1] }
-component = "y"
-"""
+        asked = (HELD_AND_PRESSED + quantity("sinks", "displacement", "upper", 3, "y")
+                 + quantity("at", "displacement", "upper", component="y", point=[0.25, 1]))
         log, _ = self.bound(ELASTIC + asked, "--set", "contact.variant=interpolation")
         found = self.summary_of()["quantities"]
         for name, exact in (("held", 10), ("pressed", -10), ("sinks", -20 / 3e11)):

@@ -10,35 +10,21 @@ import unittest
 import meshio
 import numpy as np
 
+from scene_parts import body, contact, shape, timed, tool
 from support import PROGRAM, ROOT, OfTwoBlocks, mortier
 from views_support import view
 import results
 
-ROLLERS_AND_TOOLS = """plane = "strain"
-BELOW
-[[body]]
-name = "middle"
-mesh = { shape = "quadrilateral", cells = [7, 3], cut = "both", corners = [[-0.85, 0], [0.83, 0],
-                                                                             [0.86, 0.53], [-0.85, 0.53]] }
-material = { young = 1000, poisson = 0.4999, viscosity = 1, yield_stress = 5 }
-boundary = [{ label = 2, un = 0 }]
-[[contact]]
-nonmortar = { body = "middle", label = 1 }
-mortar = { body = "below", label = 3 }
-friction = 1.5
-[[contact]]
-nonmortar = { body = "middle", label = 3 }
-mortar = { body = "above", label = 1 }
-friction = 1.5
-[[tool]]
-name = "above"
-shape = "polygon"
-points = [[-1.15, 0.53], [1.15, 0.53], [1.15, 0.8], [-1.15, 0.8]]
-uy = "-0.005*t"
-[time]
-end = 1
-steps = 2
-"""
+ROLLERS_AND_TOOLS = ('plane = "strain"\nBELOW\n'
+                     + body("middle",
+                            shape("quadrilateral", cells=[7, 3], cut="both",
+                                  corners=[[-0.85, 0], [0.83, 0], [0.86, 0.53], [-0.85, 0.53]]),
+                            "young = 1000, poisson = 0.4999, viscosity = 1, yield_stress = 5",
+                            "label = 2, un = 0") + contact(("middle", 1), ("below", 3), friction=1.5)
+                     + contact(("middle", 3), ("above", 1), friction=1.5)
+                     + tool("above", shape="polygon",
+                            points=[[-1.15, 0.53], [1.15, 0.53], [1.15, 0.8], [-1.15, 0.8]], uy="-0.005*t")
+                     + timed(2))
 BELOW = {"tool": """[[tool]]
 name = "below"
 shape = "polygon"

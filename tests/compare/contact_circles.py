@@ -3,16 +3,16 @@ import math
 import re
 
 import numpy as np
-from contact_support import (HELD, PLANE, body, contact, ended, forces, off, polygon, rectangle, solve, time,
-                             vectors, zero)
+from contact_support import HELD, PLANE, ended, forces, off, polygon, rectangle, solve, zero
+from scene_parts import body, contact, elastic, timed, tool
 
 
 def ring(line, sliding):
     """A ring, moved by 0.01 onto a line at its lowest point."""
     mesh = '{ shape = "annulus", centre = [0, 1], inner = 0.3, outer = 1, span = "full", cells = [96, 6] }'
-    return (PLANE + body("roll", mesh, ['label = 1, ux = 0, uy = "-0.01*t"']) + line
+    return (PLANE + body("roll", mesh, 1000.0, 'label = 1, ux = 0, uy = "-0.01*t"') + line
             + contact(("roll", 2), ("low", 1), variant="weighted", sliding=sliding)
-            + forces("reaction", "low") + time(2))
+            + forces("reaction", "low") + timed(2))
 
 
 def cut(start, end, pieces):
@@ -31,8 +31,7 @@ def ring_on_line(program):
     A line of a tool is straight however it is cut: equal to rounding of the repetition."""
     faults, small = [], []
     for half in (1.05, 1.1, 1.2, 1.8, 2, 5, 50):
-        ends = vectors([(half, 0), (-half, 0)])
-        lines = {"line": f'[[tool]]\nname = "low"\nshape = "line"\npoints = {ends}\n',
+        lines = {"line": tool("low", shape="line", points=[(half, 0), (-half, 0)]),
                  **{f"{pieces} pieces": table(half, pieces) for pieces in (1, 10, 100)}}
         for name, line in lines.items():
             what = f"half length {half}, {name}"
@@ -59,10 +58,10 @@ def ring_on_floor(program):
                 for variant, tolerance in (("weighted", 1e-4), (None, 0.02)):
                     points = cut((half, -35), (-half, -35), pieces)
                     points += [(-half, -35), (-half, -50), (half, -50)]
-                    text = (PLANE + body("roller", mesh, [f"label = 1, {HELD}"], 2.75e6)
+                    text = (PLANE + body("roller", mesh, 2.75e6, f"label = 1, {HELD}")
                             + polygon("low", points, 'uy = "0.2*t"', [1] * pieces + [2, 3, 4])
                             + contact(("roller", 2), ("low", 1), sliding=sliding, variant=variant)
-                            + forces("reaction", "low") + time())
+                            + forces("reaction", "low") + timed())
                     run = solve(program, text)
                     what = f"half width {half}, {pieces} pieces, {sliding}, {variant or 'default'}"
                     faults += ended(what, run) or (off(what + ", Y", run.value("Y"), 339370, tolerance)
@@ -85,14 +84,14 @@ def disc_between_platens(program):
     faults = []
     for half in (8, 30, 300):
         for sliding in ("refuse", "finite"):
-            text = body("disc", '{ file = "disc.geo", region = "disc" }', [], 20000, 0.25)
+            text = body("disc", '{ file = "disc.geo", region = "disc" }', elastic(20000, 0.25))
             text += "[[body.point]]\nat = [0, 0]\nux = 0\n"
             text += "[[body.point]]\nat = [0, -25]\nux = 0\n"
             for name, y, push in (("lower", -25, ""), ("upper", 25, 'fy = "-1000*t"\n')):
                 ends = [(half, y), (-half, y)] if y < 0 else [(-half, y), (half, y)]
-                text += f'[[tool]]\nname = "{name}"\nshape = "line"\npoints = {vectors(ends)}\n{push}'
-                text += contact(("disc", '"rim"'), (name, None), sliding=sliding)
-            text += forces("reaction", "lower") + forces("contact_force", "upper", None, "U") + time()
+                text += tool(name, shape="line", points=ends, more=push)
+                text += contact(("disc", "rim"), (name,), sliding=sliding)
+            text += forces("reaction", "lower") + forces("contact_force", "upper", None, "U") + timed()
             run = solve(program, text, fields=True, files={"disc.geo": DISC_GEO})
             what = f"half width {half}, {sliding}"
             faults += ended(what, run)
@@ -121,13 +120,14 @@ def disc_falls(program):
     """A disc that is drawn over the ends of two blocks and pressed by a force alone."""
     text = PLANE.replace("strain", "stress")
     for name, left, right in (("a", 0, 2.156), ("b", 2.2039, 4.25608)):
-        text += body(name, rectangle((left, -0.979051), (right, 0), (33, 4)), [f"label = 1, {HELD}"], 1e3, 0)
+        text += body(name, rectangle((left, -0.979051), (right, 0), (33, 4)), elastic(1e3, 0),
+                     f"label = 1, {HELD}")
     text += ('[[tool]]\nname = "tool"\nshape = "disc"\ncentre = [2.94351, 2.8167]\nradius = 2.8167\n'
              'ux = "3.89746*max(t - 0.2, 0)/0.8"\nfy = "-1.58984*min(5*t, 1)"\n'
              'rotation = "-0.920076*max(t - 0.2, 0)/0.8"\n')
     for name in "ab":
         text += contact((name, 3), ("tool", None), variant="weighted", friction=0, sliding="finite")
-    return fall("disc", solve(program, text + time(20)), r"body tool\b.*translation along")
+    return fall("disc", solve(program, text + timed(20)), r"body tool\b.*translation along")
 
 
 def spline_leaves_corner(program):
@@ -136,11 +136,12 @@ def spline_leaves_corner(program):
     turns = [-math.pi / 2 + i * math.pi / 6 for i in range(12)]
     points = [(centre[0] + a * math.cos(t), centre[1] + b * math.sin(t)) for t in turns]
     text = ("degree = 2\n" + PLANE
-            + body("a", rectangle((0, -1.12112), (3.87827, 0), (80, 7)), [f"label = 1, {HELD}"], 1000.0, 0.45)
-            + f'[[tool]]\nname = "tool"\nshape = "spline"\npoints = {vectors(points + points[:1])}\n'
-            'ux = "-3.17213*max(t - 0.2, 0)/0.8"\nfy = "-0.494765*min(5*t, 1)"\n'
+            + body("a", rectangle((0, -1.12112), (3.87827, 0), (80, 7)), elastic(1000.0, 0.45),
+                   f"label = 1, {HELD}")
+            + tool("tool", shape="spline", points=points + points[:1], ux="-3.17213*max(t - 0.2, 0)/0.8",
+                   fy="-0.494765*min(5*t, 1)")
             + contact(("a", 3), ("tool", None), variant="weighted", friction=0.454662, sliding="finite")
-            + time(40))
+            + timed(40))
     return fall("spline", solve(program, text), r"body tool\b.*translation along")
 
 
@@ -151,10 +152,10 @@ def stack_tips(program):
             ("low", ((0, -1), (4, 0)), (32, 6), f"label = 1, {HELD}"),
             ("mid", ((0, 0), (4.5, 0.3)), (40, 3), 'label = 2, ux = "3.0*max(0, t-0.1)/0.9"'),
             ("up", ((0, 0.3), (4, 1.3)), (36, 6), 'label = 3, ux = 0, ty = "-2.0*min(10*t,1)"')):
-        text += body(name, rectangle(lower, upper, cells), [held])
+        text += body(name, rectangle(lower, upper, cells), 1000.0, held)
     text += contact(("mid", 1), ("low", 3), variant="weighted", friction=0.2, sliding="finite")
     text += contact(("mid", 3), ("up", 1), variant="weighted", friction=0.2, sliding="finite")
-    text += time(60) + "[output]\nevery = 0\n"
+    text += timed(60) + "[output]\nevery = 0\n"
     return fall("stack", solve(program, text), r"body up\b.*rotation about")
 
 
@@ -167,10 +168,10 @@ def disc_in_groove(program):
     for degree, cells, outer in cases:
         mesh = (f'{{ shape = "annulus", centre = [0, {outer * math.sqrt(2)!r}], inner = 0.3, '
                 f'outer = {outer}, span = "full", cells = {cells} }}')
-        text = (f"degree = {degree}\n" + PLANE + body("disc", mesh, [], more='force = { y = "-20*t" }\n')
+        text = (f"degree = {degree}\n" + PLANE + body("disc", mesh, 1000.0, force={"y": "-20*t"})
                 + polygon("v", groove, "", [3, 4, 1, 1, 2])
                 + contact(("disc", 2), ("v", 1), friction=0.2, sliding="finite")
-                + forces("reaction", "v") + time(2))
+                + forces("reaction", "v") + timed(2))
         run = solve(program, text)
         what = f"disc in a groove, degree {degree}, {cells}"
         weight = 20 * math.pi * (outer ** 2 - 0.3 ** 2)

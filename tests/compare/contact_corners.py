@@ -2,8 +2,8 @@
 import math
 
 import numpy as np
-from contact_support import (HELD, PLANE, body, contact, ended, forces, off, polygon, quadrilateral,
-                             rectangle, solve, time)
+from contact_support import HELD, PLANE, ended, forces, off, polygon, quadrilateral, rectangle, solve
+from scene_parts import body, contact, timed
 
 TAN = math.tan(math.radians(10))
 SLOPE = [(0, -1), (3, -1), (3, 3 * TAN), (0, 0)]
@@ -54,16 +54,16 @@ def corner_of_a_body(program, block, other, names, normal, motion):
 
 def corner_on_slope(program):
     """Along the normal of the slope: X/Y = -tan(10 degrees)."""
-    block = body("b", quadrilateral(SLOPE, (24, 8)), [f"label = 1, {HELD}"])
-    bar = body("k", rectangle((0.9, FOOT[1]), (1.5, FOOT[1] + 0.6), (6, 6)),
-               ['label = 3, ux = 0, uy = "-0.01*t"'], 1e4)
-    return corner_of_a_body(program, block, bar, (("k", 1), ("b", 3)), (-TAN, 1), time(2))
+    block = body("b", quadrilateral(SLOPE, (24, 8)), 1000.0, f"label = 1, {HELD}")
+    bar = body("k", rectangle((0.9, FOOT[1]), (1.5, FOOT[1] + 0.6), (6, 6)), 1e4,
+               'label = 3, ux = 0, uy = "-0.01*t"')
+    return corner_of_a_body(program, block, bar, (("k", 1), ("b", 3)), (-TAN, 1), timed(2))
 
 
 def tool_corner(program):
     """A sharp tool pressed 0.01 into the slope: not missed, and along the normal of the moved slope."""
     faults = []
-    block = body("b", quadrilateral(SLOPE, (24, 8)), [f"label = 1, {HELD}"])
+    block = body("b", quadrilateral(SLOPE, (24, 8)), 1000.0, f"label = 1, {HELD}")
     outline = [(0.9, FOOT[1]), FOOT, (1.5, 0.9), (0.9, 0.9)]
     for labels in ([1, 1, 1, 1], [1, 2, 3, 4]):
         for sliding, swap, degree, variant in corner_variants():
@@ -72,7 +72,7 @@ def tool_corner(program):
             run = solve(program, f"degree = {degree}\n" + PLANE + block
                         + polygon("k", outline, 'uy = "-0.01*t"', labels)
                         + contact(("b", 3), ("k", 1), sliding=sliding, variant=variant)
-                        + forces("reaction", "k") + time(2))
+                        + forces("reaction", "k") + timed(2))
             what = f"labels {labels}, {sliding}, degree {degree}, {variant or 'default'}"
             turns = turned(run)
             faults += along(what, run, (-TAN, 1), 1e-9 if sliding == "refuse" else turns)
@@ -86,16 +86,16 @@ def bar_in_a_v(program):
     for sliding, swap, degree, variant in corner_variants():
         tan = math.tan(math.radians(40 if swap else 30))
         bar = rectangle((-0.5, 0.5 * tan), (0.5, 0.5 * tan + 1), (8, 8))
-        text = f"degree = {degree}\n" + PLANE + body("k", bar, ['label = 3, ux = 0, ty = "-t"'], 1e4)
+        text = f"degree = {degree}\n" + PLANE + body("k", bar, 1e4, 'label = 3, ux = 0, ty = "-t"')
         for side, name in ((1, "right"), (-1, "left")):
             corners = [(0, 0), (0, -1), (2 * side, -1), (2 * side, 2 * tan)]
-            text += body(name, quadrilateral(corners[::side], (8, 16)), [f"label = 2, {HELD}"])
+            text += body(name, quadrilateral(corners[::side], (8, 16)), 1000.0, f"label = 2, {HELD}")
             sides = [(name, 4), ("k", 1)]
             if swap:
                 sides = [("k", 2 if side > 0 else 4), (name, 4)]
             text += contact(*sides, sliding=sliding, variant=variant)
             text += forces("contact_force", name, 4, name[0])
-        run = solve(program, text + time())
+        run = solve(program, text + timed())
         what = f"{sliding}, {'bar' if swap else 'flanks'} nonmortar, degree {degree}, {variant or 'default'}"
         faults += ended(what, run)
         if run.code == 0:
@@ -112,11 +112,11 @@ def beam_on_corner(program):
     turn = math.radians(15)
     c, s = math.cos(turn), math.sin(turn)
     corners = [(0, 0), (4 * c, -4 * s), (4 * c + 0.3 * s, 0.3 * c - 4 * s), (0.3 * s, 0.3 * c)]
-    beam = body("b", quadrilateral(corners, (40, 4)), [f"label = 4, {HELD}", 'label = 3, pressure = "0.5*t"'],
-                10000.0)
+    beam = body("b", quadrilateral(corners, (40, 4)), 10000.0, f"label = 4, {HELD}",
+                'label = 3, pressure = "0.5*t"')
     foot = (3 * c, -3 * s)
-    block = body("s", rectangle((foot[0] - 1, foot[1] - 1), foot, (6, 6)), [f"label = 1, {HELD}"], 1e5)
-    return corner_of_a_body(program, beam, block, (("b", 1), ("s", 3)), (s, c), time(4))
+    block = body("s", rectangle((foot[0] - 1, foot[1] - 1), foot, (6, 6)), 1e5, f"label = 1, {HELD}")
+    return corner_of_a_body(program, beam, block, (("b", 1), ("s", 3)), (s, c), timed(4))
 
 
 SCENES = (corner_on_slope, tool_corner, bar_in_a_v, beam_on_corner)

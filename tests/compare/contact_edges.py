@@ -2,24 +2,24 @@
 import math
 
 import numpy as np
-from contact_support import (HELD, PLANE, body, contact, ended, forces, off, outline_geo, polygon, rectangle,
-                             solve, time, zero)
+from contact_support import HELD, PLANE, ended, forces, off, outline_geo, polygon, rectangle, solve, zero
+from scene_parts import body, contact, timed
 
 
 def pressed(points, labels, depth, steps=4, variant="weighted", degree=1, more=""):
     """A block, pressed from above by a tool from y = 0 on: finite sliding without friction."""
-    block = body("b", rectangle((-1.5, -1), (1.5, 0), (72, 24)), [f"label = 1, {HELD}"])
+    block = body("b", rectangle((-1.5, -1), (1.5, 0), (72, 24)), 1000.0, f"label = 1, {HELD}")
     return (f"degree = {degree}\n" + PLANE + block + polygon("t", points, f'uy = "-{depth}*t"', labels)
             + contact(("b", 3), ("t", 1), variant=variant, friction=0, sliding="finite")
-            + forces("reaction", "t") + time(steps) + more)
+            + forces("reaction", "t") + timed(steps) + more)
 
 
 def by_stiff_body(program, points, labels, depth):
     """The force on a meshed body a million times as stiff, of the same outline."""
-    stiff = body("t", '{ file = "t.geo" }', [f'label = 3, ux = 0, uy = "-{depth}*t"'], 1e9)
-    block = body("b", rectangle((-1.5, -1), (1.5, 0), (72, 24)), [f"label = 1, {HELD}"])
+    stiff = body("t", '{ file = "t.geo" }', 1e9, f'label = 3, ux = 0, uy = "-{depth}*t"')
+    block = body("b", rectangle((-1.5, -1), (1.5, 0), (72, 24)), 1000.0, f"label = 1, {HELD}")
     text = (PLANE + block + stiff + contact(("b", 3), ("t", 1), variant="weighted", sliding="finite")
-            + forces("reaction", "t", 3) + time(4))
+            + forces("reaction", "t", 3) + timed(4))
     return solve(program, text, files={"t.geo": outline_geo(points, labels, 0.3)})
 
 

@@ -16,6 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
+from scene_parts import box, quantity, shape, tool
+
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "compare"))
 from results import read_vtu  # noqa: E402
@@ -27,43 +29,16 @@ HELD = "ux = 0, uy = 0"
 here = threading.local()  # of a scene of a command: the folder in which its files stay
 
 
-def vector(point):
-    return f"[{float(point[0])!r}, {float(point[1])!r}]"
-
-
-def vectors(points):
-    return "[" + ", ".join(map(vector, points)) + "]"
-
-
 def rectangle(lower, upper, cells, cut="both"):
-    return (f'{{ shape = "rectangle", lower = {vector(lower)}, upper = {vector(upper)}, '
-            f'cells = {list(cells)}, cut = "{cut}" }}')
+    return box(lower, upper, cells, cut=cut)
 
 
 def quadrilateral(corners, cells, cut="both"):
-    return (f'{{ shape = "quadrilateral", corners = {vectors(corners)}, cells = {list(cells)}, '
-            f'cut = "{cut}" }}')
-
-
-def body(name, mesh, boundary, young=1000.0, poisson=0.3, more=""):
-    parts = ", ".join("{ " + part + " }" for part in boundary)
-    return (f'[[body]]\nname = "{name}"\nmesh = {mesh}\n'
-            f"material = {{ young = {float(young)!r}, poisson = {poisson!r} }}\n"
-            + (f"boundary = [ {parts} ]\n" if boundary else "") + more)
+    return shape("quadrilateral", corners=corners, cells=cells, cut=cut)
 
 
 def polygon(name, points, motion, labels=None):
-    named = f"labels = {labels}\n" if labels else ""
-    return f'[[tool]]\nname = "{name}"\nshape = "polygon"\npoints = {vectors(points)}\n{named}{motion}\n'
-
-
-def contact(first, second, sides=False, **keys):
-    """Between two of (body, label or None); sides: in any order, else the first is nonmortar."""
-    first, second = ("{ body = " + json.dumps(name) + ("" if label is None else f", label = {label}") + " }"
-                     for name, label in (first, second))
-    text = f"sides = [ {first}, {second} ]" if sides else f"nonmortar = {first}\nmortar = {second}"
-    written = (f"{key} = {json.dumps(value)}" for key, value in keys.items() if value is not None)
-    return "\n".join(["[[contact]]", text, *written]) + "\n"
+    return tool(name, shape="polygon", points=points, labels=labels, more=motion + "\n")
 
 
 def outline_geo(points, labels, size):
@@ -82,23 +57,7 @@ def outline_geo(points, labels, size):
 
 def forces(kind, name, label=None, prefix=""):
     """The quantities X and Y of a body or tool: of its reaction, or its contact_force."""
-    where = "{ body = " + json.dumps(name) + ("" if label is None else f", label = {label}") + " }"
-    return "".join(f'[[quantity]]\nname = "{prefix}{axis.upper()}"\n{kind} = {where}\ncomponent = "{axis}"\n'
-                   for axis in "xy")
-
-
-def quantity(name, kind, of, label=None, component=None, more=""):
-    where = "" if label is None else f", label = {json.dumps(label)}"
-    text = f'[[quantity]]\nname = "{name}"\n{kind} = {{ body = "{of}"{where}{more} }}\n'
-    if component is not None:
-        text += f'component = "{component}"\n'
-        if component.startswith("moment"):
-            text += "about = [0, 0, 0]\n" if "_" in component else "about = [0, 0]\n"
-    return text
-
-
-def time(steps=1, end=1.0):
-    return f"[time]\nend = {end!r}\nsteps = {steps}\n"
+    return "".join(quantity(prefix + axis.upper(), kind, name, label, axis) for axis in "xy")
 
 
 def off(what, value, right, tolerance):

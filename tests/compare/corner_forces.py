@@ -13,8 +13,8 @@ import random
 import sys
 
 import numpy as np
-from contact_support import (HELD, body, command, contact, forces, outline_geo, polygon, quadrilateral, solve,
-                             time, vector, vectors)
+from contact_support import HELD, command, forces, outline_geo, polygon, quadrilateral, solve
+from scene_parts import body, contact, timed, tool, written
 
 TOLERANCE = 1e-9  # the certificate of a step is 1e-10 of the largest force
 
@@ -24,7 +24,7 @@ def turned(angle):
 
 
 def held(point, *components):
-    return f"[[body.point]]\nat = {vector(point)}\n" + "".join(f"{name} = 0\n" for name in components)
+    return f"[[body.point]]\nat = {written(point)}\n" + "".join(f"{name} = 0\n" for name in components)
 
 
 class Scene:
@@ -52,7 +52,7 @@ class Scene:
         keys = {"variant": self.variant, "sliding": "finite" if self.finite else "allow"}
         self.text = (f'degree = {self.degree}\nplane = "{rng.choice(["stress", "strain"])}"\n' + above + below
                      + contact(*sides, **keys) + forces("contact_force", *corner)
-                     + time(2 if self.finite else 1))
+                     + timed(2 if self.finite else 1))
 
     @property
     def shown(self):
@@ -97,11 +97,11 @@ class Scene:
             x, y = outline.T
             area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
             weight = f'force = {{ x = 0.0, y = "-{self.load / area!r}*t" }}\n'
-            return body("above", '"above.geo"', [], self.young[0],
+            return body("above", '"above.geo"', self.young[0],
                         more=weight + held(outline[1], "ux") + held(outline[-1], "ux"))
         length = sum(np.linalg.norm(b - a) for a, b in zip(outline[1:], outline[2:]))
-        return body("above", '"above.geo"', [f'label = 2, ux = 0, ty = "-{self.load / length!r}*t"'],
-                    self.young[0])
+        return body("above", '"above.geo"', self.young[0],
+                    f'label = 2, ux = 0, ty = "-{self.load / length!r}*t"')
 
     def ends(self):
         return [sign * self.rng.uniform(0.8, 2) * turned(self.angle) for sign in (-1, 1)]
@@ -111,7 +111,7 @@ class Scene:
         left, right = self.ends()
         self.below = None
         if rng.random() < 0.5:
-            return f'[[tool]]\nname = "below"\nshape = "line"\npoints = {vectors([right, left])}\n'
+            return tool("below", shape="line", points=[right, left])
         low = min(left[1], right[1]) - 1
         self.below = 1
         whole = rng.random() < 0.5
@@ -126,11 +126,11 @@ class Scene:
         if rng.random() < 0.3:
             self.below = 1
             self.files["below.geo"] = outline_geo(corners, [1] * 4, rng.uniform(0.15, 0.4))
-            return body("below", '"below.geo"', [], self.young[1],
+            return body("below", '"below.geo"', self.young[1],
                         more="".join(held(corner, "ux", "uy") for corner in corners[:2]))
         self.below = 3
-        return body("below", quadrilateral(corners, (rng.randint(5, 20), rng.randint(3, 8))),
-                    [f"label = 1, {HELD}"], self.young[1])
+        return body("below", quadrilateral(corners, (rng.randint(5, 20), rng.randint(3, 8))), self.young[1],
+                    f"label = 1, {HELD}")
 
 
 def examined(program, seed):

@@ -2,33 +2,28 @@
 """Ties to points: couplings, layers and springs of a stiffness, bolts that are tightened."""
 import unittest
 
+from scene_parts import body, box, contact, elastic, quantity, tied, timed, tool
 from support import InFolder, value, values
 
 YOUNG, POISSON = 1000.0, 0.3
 
 
-def quantity(name, what, component=""):
-    return f'[[quantity]]\nname = "{name}"\n{what}\n' + (f'component = "{component}"\n' if component else "")
+def block(name, mesh, *boundary):
+    return body(name, mesh, elastic(YOUNG, POISSON), *boundary)
 
 
-def block(name, shape, boundary, more=""):
-    return (f'[[body]]\nname = "{name}"\nmesh = {shape}\n'
-            f"material = {{ young = {YOUNG:g}, poisson = {POISSON} }}\n{more}boundary = [ {boundary} ]\n")
-
-
-def tool(name, at, motions):
-    return f'[[tool]]\nname = "{name}"\nshape = "point"\nat = {at}\n{motions}\n'
+def point_tool(name, at, motions):
+    return tool(name, shape="point", at=at, more=motions + "\n")
 
 
 def tie(one, other, more=""):
-    def side(of):
-        return f'{{ body = "{of}" }}' if isinstance(of, str) else f'{{ body = "{of[0]}", label = {of[1]} }}'
-    return f'[[contact]]\nkind = "tied"\nsides = [ {side(one)}, {side(other)} ]\n{more}\n'
+    sides = ((each,) if isinstance(each, str) else each for each in (one, other))
+    return tied(*sides, more=more + "\n")
 
 
-STEP = "[time]\nend = 1\nsteps = 1\n"
-SQUARE = '{ shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [7, 4] }'
-CUBE = '{ shape = "cuboid", lower = [0, 0, 0], upper = [2, 1, 1], cells = [4, 3, 3] }'
+STEP = timed()
+SQUARE = box([0, 0], [2, 1], [7, 4])
+CUBE = box([0, 0, 0], [2, 1, 1], [4, 3, 3])
 
 
 class Dimension:
@@ -47,16 +42,13 @@ class Dimension:
         self.fixed = ", ".join(f"u{axis} = 0" for axis in self.axes)
 
     def body(self, top=""):
-        sides = f"{{ label = 1, {self.fixed} }}" + (f", {{ label = 3, {top} }}" if top else "")
-        return self.head + block("block", CUBE if self.space else SQUARE, sides)
+        sides = [f"label = 1, {self.fixed}"] + ([f"label = 3, {top}"] if top else [])
+        return self.head + block("block", CUBE if self.space else SQUARE, *sides)
 
     def numbers(self, body="block"):
-        about = f"about = {self.at}\n"
-        text = "".join(quantity(f"base_{axis}", f'reaction = {{ body = "{body}", label = 1 }}', axis)
-                       for axis in self.axes)
-        text += "".join(quantity(f"base_{each}", f'reaction = {{ body = "{body}", label = 1 }}\n{about}',
-                                 each) for each in self.moments)
-        return text + quantity("stored", f'stored_energy = {{ body = "{body}" }}')
+        text = "".join(quantity(f"base_{axis}", "reaction", body, 1, axis) for axis in self.axes)
+        text += "".join(quantity(f"base_{each}", "reaction", body, 1, each, self.at) for each in self.moments)
+        return text + quantity("stored", "stored_energy", body)
 
     def motions(self):
         """Of the point, by keys."""
@@ -93,7 +85,7 @@ class Couplings(Case):
     def test_a_kinematic_coupling_is_a_prescribed_side(self):
         for of in CASES:
             with self.subTest(head=of.head):
-                point = tool("handle", of.at, of.motion_text())
+                point = point_tool("handle", of.at, of.motion_text())
                 ties = tie(("block", of.top), "handle")
                 coupled = self.run_it(of.body() + point + ties + of.numbers() + STEP)
                 held = self.run_it(of.body(of.side()) + of.numbers() + STEP)
@@ -105,18 +97,18 @@ class Couplings(Case):
                 with self.subTest(coupling=coupling, head=of.head):
                     more = f'coupling = "{coupling}"'
                     loads = dict(zip([f"f{axis}" for axis in of.axes] + of.moments, [3, -5, 2, 1, -2, 1.5]))
-                    driven = tool("handle", of.at,
+                    driven = point_tool("handle", of.at,
                                   "\n".join(f'{key} = "{each}*t"' for key, each in loads.items()))
-                    asked = "".join(quantity(f"of_{each}", 'displacement = { body = "handle" }', each)
+                    asked = "".join(quantity(f"of_{each}", "displacement", "handle", component=each)
                                     for each in of.axes + of.rotations)
                     ties = tie(("block", of.top), "handle", more)
                     found = values(self.run_it(of.body() + driven + ties + of.numbers() + asked + STEP))
                     balance = {f"base_{key.replace('f', '', 1)}": -each for key, each in loads.items()}
                     self.assertAgree({name: found[name] for name in balance}, balance)
                     names = {key: "of_" + (key[1:] if key[0] == "u" else key) for key in of.motions()}
-                    moved = tool("handle", of.at, "\n".join(f"{key} = {found[name]!r}"
+                    moved = point_tool("handle", of.at, "\n".join(f"{key} = {found[name]!r}"
                                                             for key, name in names.items()))
-                    work = quantity("back", 'reaction = { body = "handle" }', of.up)
+                    work = quantity("back", "reaction", "handle", component=of.up)
                     back = self.run_it(of.body() + moved + ties + of.numbers() + work + STEP)
                     self.assertAlmostEqual(value(back, "back"), loads[f"f{of.up}"], delta=1e-9)
 
@@ -132,7 +124,7 @@ class Couplings(Case):
                 area = 4 * 3.141592653589793 if rings else of.area
                 others = [f"f{axis}" for axis in of.axes[:-1]] + of.moments
                 free = "\n".join(f"{each} = 0" for each in others)
-                point = tool("handle", [0, 1] if rings else of.at, f'f{up} = "{3 * area!r}*t"\n{free}')
+                point = point_tool("handle", [0, 1] if rings else of.at, f'f{up} = "{3 * area!r}*t"\n{free}')
                 ties = tie(("block", of.top), "handle", 'coupling = "distributing"')
                 coupled = self.run_it(text + point + ties + of.numbers() + STEP)
                 pulled = self.run_it(text.replace(" ]\n", f', {{ label = 3, t{up} = "3*t" }} ]\n')
@@ -143,7 +135,7 @@ class Couplings(Case):
         """A plate that presses without friction along the sides is a roller."""
         for of in CASES[:3:2]:
             with self.subTest(head=of.head):
-                point = tool("plate", of.at, f'u{of.up} = "-0.02*t"')
+                point = point_tool("plate", of.at, f'u{of.up} = "-0.02*t"')
                 ties = tie(("block", of.top), "plate", f'along = ["{of.up}"]')
                 coupled = self.run_it(of.body() + point + ties + of.numbers() + STEP)
                 self.assertIn("kinematic coupling of", (told := self.mortier("check", "scene.toml").stdout))
@@ -153,7 +145,7 @@ class Couplings(Case):
 
     def test_a_support_that_says_something_else_is_refused(self):
         of = CASES[0]
-        handle = tool("handle", of.at, 'uy = "-0.02*t"') + tie(("block", 3), "handle")
+        handle = point_tool("handle", of.at, 'uy = "-0.02*t"') + tie(("block", 3), "handle")
         text = of.body('uy = "-0.01*t"') + handle
         place = next(k for k, line in enumerate(text.splitlines(), 1) if line == "[[contact]]")
         self.refuse(text + STEP, f"scene.toml:{place}: contact: the supports of body block and the motion of "
@@ -166,16 +158,12 @@ class Layers(Case):
     """One-dimensional states: rollers on both bodies, or POISSON = 0."""
 
     def column(self, of, more, load):
-        rollers = "{ label = 4, ux = 0 }" + (", { label = 5, uy = 0 }" if of.space else "")
-        up = of.up
-        cells = ("[4, 3, 2]", "[3, 2, 3]") if of.space else ("[5, 3]", "[7, 4]")
+        rollers = ["label = 4, ux = 0"] + (["label = 5, uy = 0"] if of.space else [])
+        cells = ([4, 3, 2], [3, 2, 3]) if of.space else ([5, 3], [7, 4])
         lower, upper = ([0, 0, 0], [2, 1, 1]) if of.space else ([0, 0], [2, 1])
         raised = [*lower[:-1], 1], [*upper[:-1], 2]
-        kind = "cuboid" if of.space else "rectangle"
-        mesh = [f'{{ shape = "{kind}", lower = {a}, upper = {b}, cells = {n} }}'
-                for (a, b), n in zip([(lower, upper), raised], cells)]
-        return (of.head + block("lower", mesh[0], f"{{ label = 1, u{up} = 0 }}, {rollers}")
-                + block("upper", mesh[1], f"{rollers}, {{ label = 3, {load} }}")
+        return (of.head + block("lower", box(lower, upper, cells[0]), f"label = 1, u{of.up} = 0", *rollers)
+                + block("upper", box(*raised, cells[1]), *rollers, f"label = 3, {load}")
                 + tie(("upper", 1), ("lower", 3), more))
 
     def test_a_layer_gives_way_by_its_traction_over_its_stiffness(self):
@@ -187,10 +175,10 @@ class Layers(Case):
                     continue
                 with self.subTest(head=of.head, variant=variant):
                     text = self.column(of, f'stiffness = {k}\nvariant = "{variant}"', f't{of.up} = "-{p}*t"')
-                    text += quantity("top", 'displacement = { body = "upper", label = 3 }', of.up)
-                    text += quantity("force", 'external_work = { body = "upper" }')
-                    text += quantity("stored", 'stored_energy = { body = "upper" }')
-                    text += quantity("below", 'stored_energy = { body = "lower" }')
+                    text += quantity("top", "displacement", "upper", 3, of.up)
+                    text += quantity("force", "external_work", "upper")
+                    text += quantity("stored", "stored_energy", "upper")
+                    text += quantity("below", "stored_energy", "lower")
                     found = self.run_it(text + STEP)
                     top = -p * (2 / YOUNG + 1 / k)
                     self.assertAlmostEqual(value(found, "top"), top, delta=1e-12)
@@ -202,7 +190,7 @@ class Layers(Case):
     def test_a_stiff_layer_is_none(self):
         of = Dimension(2, 1)
         load = 'tx = "t*(1 + x)", ty = "-t*x^2"'
-        numbers = quantity("top", 'displacement = { body = "upper", label = 3 }', "y")
+        numbers = quantity("top", "displacement", "upper", 3, "y")
         rigid = values(self.run_it(self.column(of, "", load) + numbers + STEP))
         ratio = []
         for k in (1e6, 1e8):
@@ -215,16 +203,16 @@ class Layers(Case):
         k, p = 50.0, 3.0
         for of in CASES:
             with self.subTest(head=of.head):
-                sides = ", ".join(f'{{ label = 3, t{axis} = "{load}*t" }}'
-                                  for axis, load in zip(of.axes, [1.0, 0.5, -p] if of.space else [1.0, -p]))
-                body = of.head + block("block", CUBE if of.space else SQUARE, sides)
-                ground = tool("ground", [1, 0.5, 0] if of.space else [1, 0], "")
+                sides = [f'label = 3, t{axis} = "{load}*t"'
+                         for axis, load in zip(of.axes, [1.0, 0.5, -p] if of.space else [1.0, -p])]
+                bed = of.head + block("block", CUBE if of.space else SQUARE, *sides)
+                ground = point_tool("ground", [1, 0.5, 0] if of.space else [1, 0], "")
                 springs = tie(("block", 1), "ground", f'coupling = "distributing"\nstiffness = {k}')
-                asked = "".join(quantity(f"u_{axis}", 'displacement = { body = "block", label = 1 }', axis)
+                asked = "".join(quantity(f"u_{axis}", "displacement", "block", 1, axis)
                                 for axis in of.axes)
-                asked += "".join(quantity(f"f_{axis}", 'reaction = { body = "ground" }', axis)
+                asked += "".join(quantity(f"f_{axis}", "reaction", "ground", component=axis)
                                  for axis in of.axes)
-                found = values(self.run_it(body + ground + springs + asked + STEP))
+                found = values(self.run_it(bed + ground + springs + asked + STEP))
                 loads = [1.0, 0.5, -p] if of.space else [1.0, -p]
                 for axis, load in zip(of.axes, loads):
                     self.assertAlmostEqual(found[f"u_{axis}"], load / k, delta=1e-12)
@@ -237,9 +225,9 @@ class Layers(Case):
         text = self.column(of, f"stiffness = {k}", 'ty = "-4*min(t, 1)"')
         text = text.replace(f"poisson = {POISSON} }}",
                             f"poisson = {POISSON}, viscosity = 100, yield_stress = 3 }}")
-        text += quantity("jump", 'displacement = { body = "upper", label = 1 }', "y")
-        text += quantity("under", 'displacement = { body = "lower", label = 3 }', "y")
-        found = values(self.run_it(text + "[time]\nend = 3\nsteps = 12\n"))
+        text += quantity("jump", "displacement", "upper", 1, "y")
+        text += quantity("under", "displacement", "lower", 3, "y")
+        found = values(self.run_it(text + timed(12, 3)))
         self.assertAlmostEqual(found["jump"] - found["under"], -4 / k, delta=1e-12)
 
 
@@ -250,30 +238,23 @@ class Bolts(Case):
     LENGTH = 2.0
 
     def scene(self, motion, shank="", more="", material=""):
-        bolt = material or f"{{ young = {YOUNG:g}, poisson = 0 }}"
-
-        def part(name, lower, upper, cells, boundary):
-            mesh = f'{{ shape = "rectangle", lower = {lower}, upper = {upper}, cells = {cells} }}'
-            return (f'[[body]]\nname = "{name}"\nmesh = {mesh}\nmaterial = {bolt}\n{shank}'
-                    f"boundary = [ {boundary} ]\n")
-        plates = "".join(block(name, f'{{ shape = "rectangle", lower = [1.2, {low}], upper = [3, {low + 1}], '
-                                     "cells = [4, 3] }", f"{{ label = {label}, {load} }}")
-                         for name, low, label, load in (("under", -1, 1, "uy = 0, ux = 0"),
-                                                        ("over", 0, 2, "ux = 0")))
-        text = part("low", [0, -1], [1, 0], [2, 3], "{ label = 4, ux = 0 }")
-        text += part("high", [0, 0], [1, 1], [3, 2], "{ label = 4, ux = 0 }") + plates
-        text += tool("nut", [0, -1], "fy = 0") + tool("head", [0, 1], "fy = 0")
+        bolt = material or elastic(YOUNG, 0)
+        text = body("low", box([0, -1], [1, 0], [2, 3]), bolt, "label = 4, ux = 0", more=shank)
+        text += body("high", box([0, 0], [1, 1], [3, 2]), bolt, "label = 4, ux = 0", more=shank)
+        text += block("under", box([1.2, -1], [3, 0], [4, 3]), "label = 1, uy = 0, ux = 0")
+        text += block("over", box([1.2, 0], [3, 1], [4, 3]), "label = 2, ux = 0")
+        text += point_tool("nut", [0, -1], "fy = 0") + point_tool("head", [0, 1], "fy = 0")
         for plate, side, cap, end in (("under", 1, "nut", ("low", 1)), ("over", 3, "head", ("high", 3))):
             text += tie((plate, side), cap, 'along = ["y"]') + tie(end, cap, 'along = ["y"]')
-        text += '[[contact]]\nsides = [ { body = "over", label = 1 }, { body = "under", label = 3 } ]\n'
+        text += contact(("over", 1), ("under", 3), sides=True)
         if motion is not None:
-            text += tool("cut", [0, 0], motion) + tie(("low", 3), ("high", 1), 'offset = "cut"')
-            text += quantity("shortening", 'displacement = { body = "cut" }', "y")
+            text += point_tool("cut", [0, 0], motion) + tie(("low", 3), ("high", 1), 'offset = "cut"')
+            text += quantity("shortening", "displacement", "cut", component="y")
         else:
             text += tie(("low", 3), ("high", 1))
-        text += quantity("force", 'contact_force = { body = "high", label = 3 }', "y")
-        text += quantity("clamp", 'contact_force = { body = "over", label = 1 }', "y")
-        return text + quantity("stored", 'stored_energy = { body = "over" }') + more
+        text += quantity("force", "contact_force", "high", 3, "y")
+        text += quantity("clamp", "contact_force", "over", 1, "y")
+        return text + quantity("stored", "stored_energy", "over") + more
 
     def test_tightened_by_a_force_a_length_and_a_temperature(self):
         force = values(self.run_it(self.scene('fy = "5*t"') + STEP))
@@ -284,8 +265,8 @@ class Bolts(Case):
         given = values(self.run_it(self.scene(f"uy = {length!r}") + STEP))
         self.assertAgree(given, force, 1e-9)
         # The shank is stressed along its axis alone, so that cooling it is a shortening.
-        along = (f'{{ elasticity = "orthotropic", young1 = {YOUNG:g}, young2 = {YOUNG:g}, '
-                 f"shear12 = {YOUNG / 2:g}, poisson12 = 0, expansion = [0, 1, 0] }}")
+        along = (f'elasticity = "orthotropic", young1 = {YOUNG:g}, young2 = {YOUNG:g}, '
+                 f"shear12 = {YOUNG / 2:g}, poisson12 = 0, expansion = [0, 1, 0]")
         cold = values(self.run_it(self.scene(None, shank=f"temperature = {-length / self.LENGTH!r}\n",
                                              material=along) + STEP))
         del force["shortening"]
@@ -299,29 +280,26 @@ class Bolts(Case):
             return self.scene(motion).replace('name = "over"\n', f'name = "over"\n{loads}', 1)
         self.run_it(loaded('fy = "5*t"') + STEP + "[output]\nstate = true\n", folder="first")
         tight = values(self.run_it(loaded('fy = "5*t"') + STEP))
-        going = 'start = "first"\n' + loaded('uy = "held"') + "[time]\nend = 2\nsteps = 1\n"
+        going = 'start = "first"\n' + loaded('uy = "held"') + timed(1, 2)
         locked = values(self.run_it(going))
         self.assertAlmostEqual(locked["shortening"], tight["shortening"], delta=1e-15)
         self.assertGreater(locked["force"], 5 + 1e-3)
         whole = values(self.run_it(loaded(f'uy = "{tight["shortening"]!r}*min(t, 1)"')
-                                   + "[time]\nend = 2\nsteps = 2\n"))
+                                   + timed(2, 2)))
         self.assertAgree(whole, locked, 1e-9)
 
     def test_a_distance_of_contact_is_an_offset_of_a_tie(self):
         """Where all of a contact without friction is closed."""
-        def scene(contact, name):
-            text = block("upper", '{ shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = 5 }',
-                         '{ label = 3, uy = 0 }, { label = 4, ux = 0 }')
-            text += block("lower", '{ shape = "rectangle", upper = [1, 1], cells = [5, 3] }',
-                          '{ label = 1, uy = 0, ux = 0 }')
-            text += contact + quantity(name, 'reaction = { body = "upper", label = 3 }', "y")
-            return text + quantity("stored", 'stored_energy = { body = "lower" }')
-        sides = 'nonmortar = { body = "upper", label = 1 }\nmortar = { body = "lower", label = 3 }\n'
-        near = values(self.run_it(scene(f'[[contact]]\n{sides}gap = "-0.01*t"\nvariant = "mortar"\n', "top")
-                                  + STEP))
-        apart = tool("wedge", [0, 1], 'uy = "0.01*t"') + (
-            f'[[contact]]\nkind = "tied"\nvariant = "mortar"\n{sides}along = ["y"]\noffset = "wedge"\n')
-        self.assertAgree(values(self.run_it(scene(apart, "top") + STEP)), near, 1e-9)
+        def scene(between):
+            return (block("upper", box([0, 1], [1, 2], 5), "label = 3, uy = 0", "label = 4, ux = 0")
+                    + block("lower", box([0, 0], [1, 1], [5, 3]), "label = 1, uy = 0, ux = 0") + between
+                    + quantity("top", "reaction", "upper", 3, "y")
+                    + quantity("stored", "stored_energy", "lower") + STEP)
+        sides = ("upper", 1), ("lower", 3)
+        near = values(self.run_it(scene(contact(*sides, gap="-0.01*t", variant="mortar"))))
+        apart = point_tool("wedge", [0, 1], 'uy = "0.01*t"') + contact(
+            *sides, kind="tied", variant="mortar", along=["y"], offset="wedge")
+        self.assertAgree(values(self.run_it(scene(apart))), near, 1e-9)
 
 
 class Points(Case):
@@ -335,9 +313,9 @@ class Points(Case):
                 text = of.body().replace("boundary =", f"point = {{ at = {at}, {loads} }}\nboundary =")
                 if rings:
                     of.moments = []
-                text += of.numbers() + quantity("work", 'external_work = { body = "block" }')
-                there = f'displacement = {{ body = "block", point = {at} }}'
-                text += "".join(quantity(f"u_{axis}", there, axis) for axis in of.axes)
+                text += of.numbers() + quantity("work", "external_work", "block")
+                text += "".join(quantity(f"u_{axis}", "displacement", "block", component=axis, point=at)
+                                for axis in of.axes)
                 run = self.run_it(text + STEP)
                 found = values(run)
                 for axis, each in forces.items():
@@ -355,9 +333,9 @@ class Points(Case):
 class Refusals(Case):
     def test_what_does_not_belong_together(self):
         of = CASES[0]
-        point = tool("handle", of.at, "")
+        point = point_tool("handle", of.at, "")
         good = of.body() + point + tie(("block", 3), "handle", "MORE") + STEP
-        two = of.body() + block("other", SQUARE, "{ label = 1, ux = 0 }")
+        two = of.body() + block("other", SQUARE, "label = 1, ux = 0")
         for text, expected in (
                 (good.replace("MORE", 'variant = "mortar"'), "none beside a tool of shape"),
                 (good.replace("MORE", "stiffness = 1"), "it beside coupling"),

@@ -3,39 +3,18 @@ import statistics
 import unittest
 
 import data_bounds
+from scene_parts import body, box, contact, quantity, timed
 from support import PROGRAM, InFolder
-
-BLOCKS = """\
-[[body]]
-name = "u"
-mesh = {{ shape = "rectangle", cells = [2, 2], lower = [0, 0], upper = [1, 1] }}
-material = {{ young = 1, poisson = 0.3 }}
-boundary = [{{ label = 3, {top} }}, {{ label = 4, ux = 0 }}{more}]
-{body}
-[[body]]
-name = "l"
-mesh = {{ shape = "rectangle", cells = [4, 4], lower = [0, -1], upper = [1, 0] }}
-material = {{ young = 2, poisson = 0.2 }}
-boundary = [{{ label = 1, ux = 0, uy = "{bottom}" }}]
-[contact]
-nonmortar = {{ body = "u", label = 1 }}
-mortar = {{ body = "l", label = 3 }}
-{contact}
-[time]
-end = 1
-steps = 1
-[accuracy]
-bound = true
-[[quantity]]
-name = "f"
-contact_force = {{ body = "l", label = 3 }}
-component = "y"
-"""
 
 
 class DataBounds(InFolder):
-    def bound(self, top, more="", body="", contact="", bottom="0", settings=()):
-        self.write(BLOCKS.format(top=top, more=more, body=body, contact=contact, bottom=bottom))
+    def bound(self, top, more=(), data="", distance=None, bottom="0", settings=()):
+        self.write(body("u", box([0, 0], [1, 1], [2, 2]), 1, f"label = 3, {top}", "label = 4, ux = 0", *more,
+                        more=data + "\n")
+                   + body("l", box([0, -1], [1, 0], [4, 4]), "young = 2, poisson = 0.2",
+                          f'label = 1, ux = 0, uy = "{bottom}"')
+                   + contact(("u", 1), ("l", 3), gap=distance) + timed() + "[accuracy]\nbound = true\n"
+                   + quantity("f", "contact_force", "l", 3, "y"))
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", *settings)
         summary = self.summary_of()
         return summary["accuracy"]["bound"], summary["quantities"]["f"]
@@ -44,15 +23,15 @@ class DataBounds(InFolder):
         # True errors, and the force, of meshes 32 times finer.
         for least, given in (
                 (0.66, dict(top='ty = "-0.01*t*(1 + 5*sin(8*pi*x))"')),
-                (0.166, dict(top='ux = 0, uy = "-0.02*t"', contact='gap = "0.002*sin(4*pi*x)"')),
-                (0.36, dict(top='ty = "-0.01*t"', more=", { label = 2, ux = 0 }",
-                            body='initial_stress = { s11 = "-0.1*cos(pi*y)", s22 = 0, s12 = 0 }')),
+                (0.166, dict(top='ux = 0, uy = "-0.02*t"', distance="0.002*sin(4*pi*x)")),
+                (0.36, dict(top='ty = "-0.01*t"', more=("label = 2, ux = 0",),
+                            data='initial_stress = { s11 = "-0.1*cos(pi*y)", s22 = 0, s12 = 0 }')),
                 (0.99, dict(top='uy = "t*(-10 - 0.01*sin(4*pi*x))"', bottom="-10*t + 0.001*t"))):
             with self.subTest(least=least):
                 bound, _ = self.bound(**given)
                 self.assertNotIn("reason", bound)
                 self.assertTrue(bound["energy_error"] is None or bound["energy_error"] > least, bound)
-        bound, force = self.bound('uy = "-0.02*t"', contact='gap = "0.01*x^2"')
+        bound, force = self.bound('uy = "-0.02*t"', distance="0.01*x^2")
         self.assertTrue(force["bound"]["lower"] < -0.01113 < force["bound"]["upper"], force)
         self.assertLess(force["bound"]["error"], 0.1 * abs(force["value"]))
 
@@ -64,7 +43,7 @@ class DataBounds(InFolder):
                            (0, "-0.01*t*(y - 0.5)", "0.01*t*(x - 0.5)")):
             for plane in ("stress", "strain"):
                 with self.subTest(x=x, y=y, plane=plane):
-                    bound, force = self.bound('ty = "-0.01*t"', body=f'force = {{ x = "{x}", y = "{y}" }}',
+                    bound, force = self.bound('ty = "-0.01*t"', data=f'force = {{ x = "{x}", y = "{y}" }}',
                                               settings=("--set", f"plane={plane}"))
                     self.assertTrue(0 < bound["energy_error"] < 0.6, bound)
                     self.assertLess(force["bound"]["lower"], -0.01 - mean + 1e-12)
@@ -81,7 +60,7 @@ class DataBounds(InFolder):
         for reason, given in (
                 ("not known to be continuous", dict(top='uy = "x < 0.3 ? -0.01*t : -0.02*t"')),
                 ("gap is not known to be continuous", dict(top='uy = "-0.02*t"',
-                                                           contact='gap = "x < 0.3 ? 0 : 0.001"'))):
+                                                           distance="x < 0.3 ? 0 : 0.001"))):
             bound, _ = self.bound(**given)
             self.assertIn(reason, bound["reason"])
 

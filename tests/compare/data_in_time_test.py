@@ -3,6 +3,7 @@ import json
 import math
 import unittest
 
+from scene_parts import body, shape, timed, written
 from scenes import TWO_BLOCKS
 from support import InFolder, OfTwoBlocks
 
@@ -64,37 +65,17 @@ class DataInTime(OfTwoBlocks):
         self.assertNotIn("reason", summary)
 
 
-# A square turned by `angle`: its left side rolls, its top is moved along it by a course that passes zero.
-TURNED = """\
-[[body]]
-name = "a"
-mesh = {{ shape = "quadrilateral", cells = 2, corners = [{corners}] }}
-material = {{ young = 1000, poisson = 0.3 }}
-[[body.boundary]]
-label = 4
-un = 0
-[[body.boundary]]
-label = 1
-ux = 0
-uy = 0
-[[body.boundary]]
-label = 3
-ux = {{ time = [0, 0.3, 0.6, 1], value = [{x}] }}
-uy = {{ time = [0, 0.3, 0.6, 1], value = [{y}] }}
-[time]
-end = 1
-steps = 2
-"""
-
-
 class OneDisplacement(InFolder):
     def turned(self, angle, off=0.0):
+        """A square turned by `angle`: its left side rolls, its top is moved along it by a course that passes
+        zero."""
         c, s = math.cos(angle), math.sin(angle)
-        corners = ", ".join(f"[{c*x - s*y!r}, {s*x + c*y!r}]"
-                            for x, y in ((0, 0), (1, 0), (1, 1.1), (0, 1.1)))
+        corners = [[c*x - s*y, s*x + c*y] for x, y in ((0, 0), (1, 0), (1, 1.1), (0, 1.1))]
         course = (0.0, 6e-4, -3e-4, 1.8e-4)
-        self.write(TURNED.format(corners=corners, x=", ".join(repr(s*v + off*v) for v in course),
-                                 y=", ".join(repr(-c*v) for v in course)))
+        ux, uy = (written({"time": [0, 0.3, 0.6, 1], "value": values})
+                  for values in ([s*v + off*v for v in course], [-c*v for v in course]))
+        self.write(body("a", shape("quadrilateral", cells=2, corners=corners), 1000, "label = 4, un = 0",
+                        "label = 1, ux = 0, uy = 0", f"label = 3, ux = {ux}, uy = {uy}") + timed(2))
 
     def test_supports_agree_to_rounding_of_the_whole_course(self):
         for i in range(5):

@@ -14,7 +14,8 @@ import math
 import random
 import sys
 
-from contact_support import HELD, UNRESOLVED, body, command, contact, forces, outline_geo, solve, time
+from contact_support import HELD, UNRESOLVED, command, forces, outline_geo, solve
+from scene_parts import body, contact, timed
 
 HALF = 0.05  # of the contact, over the radius
 FINEST = {1: 44, 2: 24}  # most edges of the finer side on the half width, by degree
@@ -58,13 +59,13 @@ class Scene:
         modulus = 1 / sum(0.91 / e for e in self.young)
         force = math.pi * modulus * HALF**2 / 4
         disc, block = self.of_shapes() if self.shapes else ('"disc.geo"', '"block.geo"')
-        upper = body("u", disc, [f'label = 2, ux = 0, ty = "-{force / 2!r}*t"'], self.young[0])
-        lower = body("l", block, [f"label = 1, {HELD}"], self.young[1])
+        upper = body("u", disc, self.young[0], f'label = 2, ux = 0, ty = "-{force / 2!r}*t"')
+        lower = body("l", block, self.young[1], f"label = 1, {HELD}")
         both = [("u", 1), ("l", 3)]
         if self.sides == "lower":
             both.reverse()
         return (f'degree = {self.degree}\nplane = "strain"\n' + upper + lower
-                + contact(*both, self.sides == "any") + forces("contact_force", "l", 3) + time())
+                + contact(*both, self.sides == "any") + forces("contact_force", "l", 3) + timed())
 
 
     def of_shapes(self):

@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, quantity, shape, timed
 from support import InFolder, value
 
 import results
@@ -12,42 +13,17 @@ WOOD = ('elasticity = "orthotropic", young1 = 10, young2 = 3, poisson12 = 0.3, s
 WOOD_ACROSS = WOOD + ", young3 = 2, poisson13 = 0.2, poisson23 = 0.25"
 
 # A square, turned by TURN with its loads and axes.
-SQUARE = """\
-plane = "PLANE"
-degree = DEGREE
-[[body]]
-name = "block"
-mesh = { shape = "quadrilateral", corners = [CORNERS], cells = [3, 4] }
-material = { WOOD, angle = ANGLE }
-boundary = [ { label = 1, un = 0 }, { label = 4, un = 0 },
-             { label = 3, pressure = -2 }, { label = 2, pressure = 1 } ]
-[[quantity]]
-name = "energy"
-stored_energy = { body = "block" }
-[[quantity]]
-name = "mises"
-largest_mises = { body = "block" }
-[time]
-end = 1
-steps = 1
-[check]
-allow = ["initial-load"]
-"""
+SQUARE = ('plane = "PLANE"\ndegree = DEGREE\n'
+          + body("block", '{ shape = "quadrilateral", corners = [CORNERS], cells = [3, 4] }',
+                 "WOOD, angle = ANGLE", "label = 1, un = 0", "label = 4, un = 0", "label = 3, pressure = -2",
+                 "label = 2, pressure = 1") + quantity("energy", "stored_energy", "block")
+          + quantity("mises", "largest_mises", "block") + timed() + '[check]\nallow = ["initial-load"]\n')
 
 # A quarter of a large plate with a hole, pulled along x.
-HOLE = """\
-degree = 2
-[[body]]
-name = "plate"
-mesh = { shape = "annulus", inner = 1, outer = 50, span = "quarter", cells = [6, 6], cut = "rising" }
-material = { WOOD }
-boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 }, { label = 2, tx = "x/sqrt(x^2+y^2)" } ]
-[accuracy]
-energy = 1e-4
-[time]
-end = 1
-steps = 1
-""".replace("WOOD", WOOD)
+HOLE = ("degree = 2\n"
+        + body("plate", shape("annulus", inner=1, outer=50, span="quarter", cells=[6, 6], cut="rising"),
+               "WOOD", "label = 3, un = 0", "label = 4, un = 0", 'label = 2, tx = "x/sqrt(x^2+y^2)"')
+        + "[accuracy]\nenergy = 1e-4\n" + timed()).replace("WOOD", WOOD)
 
 
 class Axes(InFolder):

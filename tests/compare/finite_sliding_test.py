@@ -4,87 +4,28 @@ import statistics
 import unittest
 
 import random_slides
+from scene_parts import body, box, contact, shape, timed, tool
 from support import ROOT, InFolder, warned
 
-IRONING = """\
-plane = "strain"
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [-3, -3], upper = [11, 0], cells = [112, 20], cut = "both" }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "disc"
-mesh = { shape = "halfdisc", radius = 5, core = 1, cells = 8, lowest = [0, 0] }
-material = { young = 1e9, poisson = 0.3 }
-boundary = [ { label = 2, ux = "4.7*max(0, t - 0.2)/0.8", uy = "-0.05*min(5*t, 1)" } ]
-[contact]
-nonmortar = { body = "block", label = 3 }
-mortar = { body = "disc", label = 1 }
-variant = "weighted"
-sliding = "finite"
-FRICTION
-[time]
-end = 1
-steps = 25
-"""
-TOOL = IRONING[:IRONING.index("[[body]]\nname = \"disc\"")] + """\
-[[tool]]
-name = "disc"
-shape = "disc"
-centre = [0, 5]
-radius = 5
-ux = "4.7*max(0, t - 0.2)/0.8"
-uy = "-0.05*min(5*t, 1)"
-TURNS
-[contact]
-sides = [ { body = "block", label = 3 }, { body = "disc" } ]
-""" + IRONING[IRONING.index("variant"):]
+PLATE = ('plane = "strain"\n'
+         + body("block", box([-3, -3], [11, 0], [112, 20], cut="both"), 1e3, "label = 1, ux = 0, uy = 0"))
+DRIVEN = {"ux": "4.7*max(0, t - 0.2)/0.8", "uy": "-0.05*min(5*t, 1)"}
+ENDS = 'variant = "weighted"\nsliding = "finite"\nFRICTION\n' + timed(25)
+IRONING = (PLATE + body("disc", shape("halfdisc", radius=5, core=1, cells=8, lowest=[0, 0]), 1e9,
+                        f'label = 2, ux = "{DRIVEN["ux"]}", uy = "{DRIVEN["uy"]}"')
+           + contact(("block", 3), ("disc", 1)) + ENDS)
+TOOL = (PLATE + tool("disc", shape="disc", centre=[0, 5], radius=5, more="TURNS\n", **DRIVEN)
+        + contact(("block", 3), ("disc",), sides=True) + ENDS)
 # A block that is pressed onto a table and pushed off its end; HELD says how it is held from above.
-PUSHED = """\
-degree = DEGREE
-[[body]]
-name = "table"
-mesh = { shape = "rectangle", lower = [0, -1], upper = [2, 0], cells = [9, 3] }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [1, 0], upper = [1.5, 0.5], cells = [4, 4] }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = 3, ux = "2*max(t-0.1,0)", HELD } ]
-[contact]
-nonmortar = { body = "block", label = 1 }
-mortar = { body = "table", label = 3 }
-sliding = "finite"
-friction = ROUGH
-[time]
-end = 1
-steps = 20
-"""
+PUSHED = ("degree = DEGREE\n"
+          + body("table", box([0, -1], [2, 0], [9, 3]), 1e4, "label = 1, ux = 0, uy = 0")
+          + body("block", box([1, 0], [1.5, 0.5], [4, 4]), 1e4, 'label = 3, ux = "2*max(t-0.1,0)", HELD')
+          + contact(("block", 1), ("table", 3), sliding="finite", more="friction = ROUGH\n") + timed(20))
 
-FALLING = """\
-degree = DEGREE
-[[body]]
-name = "block"
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-mesh = { shape = "rectangle", lower = [-2, -1], upper = [0, 0], cells = [16, 6], cut = "both" }
-[[tool]]
-name = "disc"
-shape = "disc"
-centre = [-0.5, 1]
-radius = 1
-ux = "2*t"
-fy = "-0.5*min(10*t, 1)"
-rotation = 0
-[contact]
-sides = [ { body = "block", label = 3 }, { body = "disc" } ]
-sliding = "finite"
-[time]
-end = 1
-steps = 20
-"""
+FALLING = ("degree = DEGREE\n"
+           + body("block", box([-2, -1], [0, 0], [16, 6], cut="both"), 1000, "label = 1, ux = 0, uy = 0")
+           + tool("disc", shape="disc", centre=[-0.5, 1], radius=1, ux="2*t", fy="-0.5*min(10*t, 1)",
+                  rotation=0) + contact(("block", 3), ("disc",), sides=True, sliding="finite") + timed(20))
 
 
 class FiniteSliding(InFolder):

@@ -2,32 +2,17 @@
 import re
 import unittest
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from scenes import FRICTION_KEYS, TWO_BLOCKS
 from support import ROOT, OfTwoBlocks, values
 
-SPUN = """
-[[body]]
-name = "one"
-mesh = { shape = "annulus", inner = 0.3, outer = 1, cells = [28, 5] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, ux = "-y*0.005*max(t - 1, 0)", uy = "x*0.005*max(t - 1, 0)" } ]
-[[body]]
-name = "two"
-mesh = { shape = "annulus", inner = 1, outer = 3, cells = [28, 8] }
-material = { young = 200, poisson = 0.3 }
-boundary = [ { label = 2, ux = 0, uy = 0 } ]
-[contact]
-nonmortar = { body = "one", label = 2 }
-mortar = { body = "two", label = 1 }
-variant = "mortar"
-friction = 0.2
-gap = "-0.001*min(t, 1)"
-[time]
-end = 2
-""" + "".join(
-    f'[[quantity]]\nname = "{name}{number}"\n{key} = {{ body = "{body}" }}\n'
-    for number, body in ((1, "one"), (2, "two"))
-    for name, key in (("external", "external_work"), ("stored", "stored_energy")))
+SPUN = (body("one", shape("annulus", inner=0.3, outer=1, cells=[28, 5]), 100,
+             'label = 1, ux = "-y*0.005*max(t - 1, 0)", uy = "x*0.005*max(t - 1, 0)"')
+        + body("two", shape("annulus", inner=1, outer=3, cells=[28, 8]), 200, "label = 2, ux = 0, uy = 0")
+        + contact(("one", 2), ("two", 1), variant="mortar", friction=0.2, gap="-0.001*min(t, 1)")
+        + timed(None, 2)
+        + quantity("external1", "external_work", "one") + quantity("stored1", "stored_energy", "one")
+        + quantity("external2", "external_work", "two") + quantity("stored2", "stored_energy", "two"))
 
 
 class FrictionScene(OfTwoBlocks):
@@ -90,29 +75,11 @@ class FrictionScene(OfTwoBlocks):
         """A closed line: the pin is pressed upwards in its hole and turned at its middle until it slips all
         round where it presses. The moment that friction leaves is reported."""
         turn = 'ux = "-y*{0}", uy = "x*{0} + 0.001*min(t, 1)"'.format("0.005*(t < 1 ? 0 : t - 1)")
-        self.write(f"""
-[[body]]
-name = "pin"
-mesh = {{ shape = "annulus", inner = 0.3, outer = 1, cells = [28, 5] }}
-material = {{ young = 100, poisson = 0.3 }}
-boundary = [ {{ label = 1, {turn} }} ]
-[[body]]
-name = "plate"
-mesh = {{ shape = "annulus", inner = 1, outer = 3, cells = [40, 8] }}
-material = {{ young = 200, poisson = 0.3 }}
-boundary = [ {{ label = 2, ux = 0, uy = 0 }} ]
-[contact]
-nonmortar = {{ body = "pin", label = 2 }}
-mortar = {{ body = "plate", label = 1 }}
-friction = 0.2
-[[quantity]]
-name = "torque"
-reaction = {{ body = "pin", label = 1 }}
-component = "moment"
-[time]
-end = 3
-steps = 6
-""")
+        self.write(body("pin", shape("annulus", inner=0.3, outer=1, cells=[28, 5]), 100,
+                        f"label = 1, {turn}")
+                   + body("plate", shape("annulus", inner=1, outer=3, cells=[40, 8]), 200,
+                          "label = 2, ux = 0, uy = 0") + contact(("pin", 2), ("plate", 1), friction=0.2)
+                   + quantity("torque", "reaction", "pin", 1, "moment") + timed(6, 3))
         for swap in ("false", "true"):
             with self.subTest(swap=swap):
                 rows, summary = self.run_it(f"contact.swap={swap}")
@@ -131,25 +98,11 @@ steps = 6
     def test_a_strut_jams_or_lets_go(self):
         """A strut that leans on a floor is drawn off it and along: under a large coefficient it hangs free,
         or it is jammed."""
-        self.write("""
-[[body]]
-name = "strut"
-mesh = { shape = "quadrilateral", corners = [[0, 0], [0.1, 0], [1.1, 1], [1, 1]], cells = [1, 8] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 3, ux = "-0.03*t", uy = "0.01*t" } ]
-[[body]]
-name = "floor"
-mesh = { shape = "rectangle", lower = [-1, -1], upper = [1, 0], cells = [9, 4] }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[contact]
-nonmortar = { body = "strut", label = 1 }
-mortar = { body = "floor", label = 3 }
-friction = 2
-[time]
-end = 1
-steps = 1
-""")
+        self.write(body("strut",
+                        shape("quadrilateral", corners=[[0, 0], [0.1, 0], [1.1, 1], [1, 1]], cells=[1, 8]),
+                        100, 'label = 3, ux = "-0.03*t", uy = "0.01*t"')
+                   + body("floor", box([-1, -1], [1, 0], [9, 4]), 1e4, "label = 1, ux = 0, uy = 0")
+                   + contact(("strut", 1), ("floor", 3), friction=2) + timed())
         self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--list-solutions")
         summary = self.summary_of()
         [step] = summary["several_solutions"]

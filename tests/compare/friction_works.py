@@ -12,7 +12,8 @@ import random
 import sys
 
 import numpy as np
-from contact_support import HELD, body, command, contact, quantity, rectangle, solve, time
+from contact_support import HELD, command, rectangle, solve
+from scene_parts import body, contact, quantity, timed
 
 STEPS, FINER = 16, 8
 ALLOWED, BALANCE = 1e-3, 1e-9
@@ -45,8 +46,8 @@ class Scene:
     def text(self, steps):
         more = {"friction": self.friction, "variant": self.variant,
                 "sliding": "finite" if self.finite else None}
-        ground = body("lower", rectangle((-2, -1), (2, 0), (4 * self.cells[0], self.cells[1])),
-                      ["label = 1, " + HELD])
+        ground = body("lower", rectangle((-2, -1), (2, 0), (4 * self.cells[0], self.cells[1])), 1000.0,
+                      "label = 1, " + HELD)
         pressed, ramp = "min(4*t, 1)", "max(0, t - 0.25)/0.75"
         wave = {"time": "[0.25, 0.4375, 0.8125, 1]", "value": "[0, 1, -1, 0.5]"}
         way = f'"{self.way!r}*{ramp}"'
@@ -66,13 +67,13 @@ class Scene:
                      f'ux = {way}\nuy = "{-self.depth!r}*{pressed}"\n')
             bodies, sides = ["lower"], [("lower", 3), ("upper", 1)]
         else:
-            upper = body("upper", rectangle((-0.5, 0), (0.5, 0.6), self.cells),
-                         [f'label = 3, ux = {way}, uy = "{-self.depth!r}*{pressed}"'])
+            upper = body("upper", rectangle((-0.5, 0), (0.5, 0.6), self.cells), 1000.0,
+                         f'label = 3, ux = {way}, uy = "{-self.depth!r}*{pressed}"')
             bodies, sides = ["lower", "upper"], [("upper", 1), ("lower", 3)]
         asked = "".join(quantity(f"stored_{name}", "stored_energy", name) for name in bodies)
         asked += "".join(quantity(f"done_{name}", "external_work", name) for name in ("lower", "upper"))
         return (f'plane = "strain"\ndegree = {self.degree}\n' + ground + upper + contact(*sides, **more)
-                + asked + quantity("rubbed", "friction_work", *sides[0]) + time(steps)
+                + asked + quantity("rubbed", "friction_work", *sides[0]) + timed(steps)
                 + '[check]\nallow = ["large-strain", "large-rotation", "large-displacement"]\n')
 
 

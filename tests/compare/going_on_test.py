@@ -2,66 +2,26 @@
 """Runs that go on from the state of another one: two runs equal one, supports are released, held, added."""
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed, tool
 from support import ROOT, InFolder, mortier, value, values
 
-BLOCKS = """\
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [6, 5] }
-material = { young = 1000, poisson = 0.3 LAW }
-boundary = [ { label = 4, ux = 0 }, { label = 3, TOP } ]
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", upper = [1.5, 1], cells = [7, 4] }
-material = { young = 700, poisson = 0.2 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } ]
-"""
-CONTACT = """\
-[[contact]]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-MORE
-"""
-PLATE = """\
-[[tool]]
-name = "plate"
-shape = "line"
-points = [[-1, 2.1], [2, 2.1]]
-at = [0.5, 2.1]
-fy = "-2*t"
-moment = 0
-[[contact]]
-sides = [ { body = "upper", label = 3 }, { body = "plate", label = 1 } ]
-"""
-SOLIDS = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", lower = [0, 0, 1], upper = [1, 1, 2], cells = [3, 3, 2] }
-material = { young = 1000, poisson = 0.3, viscosity = 100, yield_stress = 3 }
-boundary = [ { label = "top", tz = "-4*t", tx = "0.6*t" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [-0.2, 0, 0], upper = [1.3, 1, 1], cells = [4, 3, 2] }
-material = { young = 700, poisson = 0.2 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = "bottom" }
-mortar = { body = "lower", label = "top" }
-friction = 0.3
-"""
-
-
-def quantity(name, what, component=""):
-    return f'[[quantity]]\nname = "{name}"\n{what}\n' + (f'component = "{component}"\n' if component else "")
-
-
-QUANTITIES = "".join([
-    quantity("base", 'reaction = { body = "lower", label = 1 }', "y"),
-    quantity("top", 'displacement = { body = "upper", label = 3 }', "y"),
-    quantity("work", 'work = { body = "upper" }'),
-    quantity("heat", 'dissipated_energy = { body = "upper" }'),
-    quantity("stored", 'stored_energy = { body = "upper" }')])
+BLOCKS = (body("upper", box([0, 1], [1, 2], [6, 5]), "young = 1000, poisson = 0.3 LAW", "label = 4, ux = 0",
+               "label = 3, TOP")
+          + body("lower", box([0, 0], [1.5, 1], [7, 4]), "young = 700, poisson = 0.2", "label = 1, uy = 0",
+                 "label = 4, ux = 0"))
+CONTACT = contact(("upper", 1), ("lower", 3), more="MORE\n")
+PLATE = (tool("plate", shape="line", points=[[-1, 2.1], [2, 2.1]], at=[0.5, 2.1], fy="-2*t", moment=0)
+         + contact(("upper", 3), ("plate", 1), sides=True))
+SOLIDS = ("dimension = 3\n"
+          + body("upper", box([0, 0, 1], [1, 1, 2], [3, 3, 2]),
+                 "young = 1000, poisson = 0.3, viscosity = 100, yield_stress = 3",
+                 'label = "top", tz = "-4*t", tx = "0.6*t"')
+          + body("lower", box([-0.2, 0, 0], [1.3, 1, 1], [4, 3, 2]), "young = 700, poisson = 0.2",
+                 'label = "bottom", ux = 0, uy = 0, uz = 0')
+          + contact(("upper", "bottom"), ("lower", "top"), friction=0.3))
+QUANTITIES = (quantity("base", "reaction", "lower", 1, "y") + quantity("top", "displacement", "upper", 3, "y")
+              + quantity("work", "work", "upper") + quantity("heat", "dissipated_energy", "upper")
+              + quantity("stored", "stored_energy", "upper"))
 FLOWS = ", viscosity = 100, yield_stress = 3"
 
 
@@ -70,7 +30,7 @@ def blocks(law="", top='ty = "-4*t"', more="", contact=CONTACT):
 
 
 def until(end, steps, more=""):
-    return f"[time]\nend = {end}\nsteps = {steps}\n{more}"
+    return timed(steps, end, more)
 
 
 class Case(InFolder):
@@ -125,7 +85,7 @@ class TwoRuns(Case):
         """Contact follows it by its own radius; it is locked where it is in the end."""
         text = (ROOT / "scenes" / "ironing.toml").read_text().split("[time]")[0]
         text = text.replace('uy = "-0.05*min(5*t, 1)"', 'fy = "-30*min(5*t, 1)"\nmoment = 0')
-        text += quantity("angle", 'displacement = { body = "cylinder" }', "rotation")
+        text += quantity("angle", "displacement", "cylinder", component="rotation")
         whole = self.run_it(text + until(1, 25), folder="whole")
         rolled = self.begin(text + until(0.6, 15))
         self.assertAgree(values(whole), values(self.go_on(text + until(1, 10))), 1e-8)

@@ -1,105 +1,38 @@
 """Thermal strain and distances in time, as a user meets them, against exact values."""
 import unittest
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from scenes import ELASTIC_KEYS, lower_heat
 from support import InFolder, value
 
-# A block between two walls, or in a corner.
-BLOCK = """\
-plane = "PLANE"
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2] }
-temperature = "100*t"
-material = { young = 1e5, poisson = 0.3, expansion = 1e-5 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } BESIDE ]
-[[quantity]]
-name = "heat"
-thermal_work = { body = "block" }
-[[quantity]]
-name = "stored"
-stored_energy = { body = "block" }
-[[quantity]]
-name = "work"
-work = { body = "block" }
-[[quantity]]
-name = "grows"
-displacement = { body = "block", point = [2, 1] }
-component = "x"
-[[quantity]]
-name = "wall"
-reaction = { body = "block", label = 4 }
-component = "x"
-[time]
-end = 1
-steps = 3
-"""
+# A block in a corner, or between two walls.
+BLOCK = ('plane = "PLANE"\n'
+         + body("block", box([0, 0], [2, 1], [4, 2]), "young = 1e5, poisson = 0.3, expansion = 1e-5",
+                "label = 1, uy = 0", "label = 4, ux = 0", temperature="100*t")
+         + quantity("heat", "thermal_work", "block") + quantity("stored", "stored_energy", "block")
+         + quantity("work", "work", "block")
+         + quantity("grows", "displacement", "block", component="x", point=[2, 1])
+         + quantity("wall", "reaction", "block", 4, "x") + timed(3))
+BETWEEN_WALLS = BLOCK.replace("label = 4, ux = 0 }", "label = 4, ux = 0 }, { label = 2, ux = 0 }")
 
 # A quarter of a ring in another, degree 2: inner radius 10, fit 20, outer radius 40.
-FIT = """\
-plane = "PLANE"
-degree = 2
-[[body]]
-name = "shaft"
-mesh = { shape = "annulus", inner = 10, outer = 20, span = "quarter", cells = [12, 8] }
-temperature = "SHAFT"
-material = { young = 2e5, poisson = 0.3, expansion = 1.2e-5 }
-boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]
-[[body]]
-name = "hub"
-mesh = { shape = "annulus", inner = 20, outer = 40, span = "quarter", cells = [10, 8] }
-temperature = "HUB"
-material = { young = 1e5, poisson = 0.25, expansion = 2.3e-5 }
-boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]
-[contact]
-nonmortar = { body = "shaft", label = 2 }
-mortar = { body = "hub", label = 1 }
-gap = -0.01
-[[quantity]]
-name = "pressure"
-largest_pressure = { body = "hub", label = 1 }
-[[quantity]]
-name = "heat"
-thermal_work = { body = "hub" }
-[time]
-end = 1
-steps = 2
-"""
+FIT = ('plane = "PLANE"\ndegree = 2\n'
+       + body("shaft", shape("annulus", inner=10, outer=20, span="quarter", cells=[12, 8]),
+              "young = 2e5, poisson = 0.3, expansion = 1.2e-5", "label = 3, un = 0", "label = 4, un = 0",
+              temperature="SHAFT")
+       + body("hub", shape("annulus", inner=20, outer=40, span="quarter", cells=[10, 8]),
+              "young = 1e5, poisson = 0.25, expansion = 2.3e-5", "label = 3, un = 0", "label = 4, un = 0",
+              temperature="HUB") + contact(("shaft", 2), ("hub", 1), gap=-0.01)
+       + quantity("pressure", "largest_pressure", "hub", 1) + quantity("heat", "thermal_work", "hub")
+       + timed(2))
 
 # Two blocks, one on the other, with a plate that is pushed in between.
-SHIM = """\
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3] }
-material = { young = 10, poisson = 0 }
-boundary = [ { label = 3, ux = 0, uy = 0 } ]
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [4, 3] }
-material = { young = 10, poisson = 0 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-gap = { time = [0, 1, 2], value = [0.001, -0.01, 0.001] }
-variant = "mortar"
-[[quantity]]
-name = "pressed"
-contact_force = { body = "lower", label = 3 }
-component = "y"
-[[quantity]]
-name = "above"
-work = { body = "upper" }
-[[quantity]]
-name = "below"
-work = { body = "lower" }
-[[quantity]]
-name = "stored"
-stored_energy = { body = "upper" }
-[time]
-end = 2
-steps = 22
-"""
+SHIM = (body("upper", box([0, 1], [1, 2], [3, 3]), "young = 10, poisson = 0", "label = 3, ux = 0, uy = 0")
+        + body("lower", box([0, 0], [1, 1], [4, 3]), "young = 10, poisson = 0", "label = 1, ux = 0, uy = 0")
+        + contact(("upper", 1), ("lower", 3), gap={"time": [0, 1, 2], "value": [0.001, -0.01, 0.001]},
+                  variant="mortar") + quantity("pressed", "contact_force", "lower", 3, "y")
+        + quantity("above", "work", "upper") + quantity("below", "work", "lower")
+        + quantity("stored", "stored_energy", "upper") + timed(22, 2))
 
 
 class Heat(InFolder):
@@ -108,7 +41,7 @@ class Heat(InFolder):
         for plane, part in (("stress", 1), ("strain", 1/0.7)):
             for scheme in ("backward-euler", "crank-nicolson", "sdirk2"):
                 with self.subTest(plane=plane, scheme=scheme):
-                    text = BLOCK.replace("PLANE", plane).replace("BESIDE", ", { label = 2, ux = 0 }")
+                    text = BETWEEN_WALLS.replace("PLANE", plane)
                     summary = self.run_it(text, f"time.scheme={scheme}")
                     self.assertAlmostEqual(value(summary, "wall"), 100*part, delta=1e-10)
                     stored = value(summary, "stored")
@@ -120,7 +53,7 @@ class Heat(InFolder):
 
     def test_nodal_temperatures_are_linear_between(self):
         """A temperature that is linear in x and y strains as its expression does."""
-        text = BLOCK.replace("PLANE", "strain").replace("BESIDE", ", { label = 2, ux = 0 }")
+        text = BETWEEN_WALLS.replace("PLANE", "strain")
         by_datum = self.run_it(text, 'body.temperature=t*(20 + 30*x + 40*y)')
         self.mortier("mesh", "rectangle", "--cells", "4,2", "--upper", "2,1", "block.mesh")
         lines = self.read("block.mesh").splitlines()

@@ -3,30 +3,17 @@ import itertools
 import math
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed
 from support import InFolder
 from results import kept_steps, read_history, read_mortier  # behind support: it is in compare/
 
-STATIC = """\
-{plane}
-degree = {degree}
-[[body]]
-name = "block"
-mesh = {{ shape = "rectangle", cells = 4, lower = [0, 0], upper = [1, 1], cut = "both" }}
-material = {{ young = 2.1e11, poisson = 0.3, expansion = 1e-5 }}
-{data}
-[[quantity]]
-name = "stored"
-stored_energy = {{ body = "block" }}
-[[quantity]]
-name = "work"
-work = {{ body = "block" }}
-[[quantity]]
-name = "heat"
-thermal_work = {{ body = "block" }}
-[time]
-end = 1
-steps = 1
-"""
+def static(data, head=""):
+    return (head + body("block", box([0, 0], [1, 1], 4, cut="both"),
+                        "young = 2.1e11, poisson = 0.3, expansion = 1e-5", more=data + "\n")
+            + quantity("stored", "stored_energy", "block") + quantity("work", "work", "block")
+            + quantity("heat", "thermal_work", "block") + timed())
+
+
 HELD = "boundary = [ {{ label = 1, ux = 0, uy = 0 }}, {{ label = 3, {} }} ]"
 DRIVES = {  # what acts; {} is nothing or * t
     "displacement": HELD.format('uy = "-1e-3{}"'),
@@ -36,55 +23,25 @@ DRIVES = {  # what acts; {} is nothing or * t
     "temperature": HELD.format("uy = 0") + '\ntemperature = "100{}"',
 }
 
-CONTACT = """\
-{plane}
-degree = {degree}
-[[body]]
-name = "upper"
-mesh = {{ shape = "rectangle", cells = 3, lower = [0, 0], upper = [1, 1], cut = "both" }}
-material = {{ young = 100, poisson = 0.3 }}
-boundary = [ {{ label = 4, ux = 0 }}, {{ label = 3, {drive} }} ]
-[[body]]
-name = "lower"
-mesh = {{ shape = "rectangle", cells = 4, lower = [0, -1], upper = [1, 0], cut = "both" }}
-material = {{ young = 300, poisson = 0.2 }}
-boundary = [ {{ label = 4, ux = 0 }}, {{ label = 1, uy = 0 }} ]
-[contact]
-nonmortar = {{ body = "upper", label = 1 }}
-mortar = {{ body = "lower", label = 3 }}
-variant = "{variant}"
-{contact}
-[time]
-end = 1
-steps = 2
-"""
+def pressed(drive, more="", variant="mortar", head=""):
+    return (head + body("upper", box([0, 0], [1, 1], 3, cut="both"), 100, "label = 4, ux = 0",
+                        f"label = 3, {drive}")
+            + body("lower", box([0, -1], [1, 0], 4, cut="both"), "young = 300, poisson = 0.2",
+                   "label = 4, ux = 0", "label = 1, uy = 0")
+            + contact(("upper", 1), ("lower", 3), variant=variant, more=more + "\n") + timed(2))
 
-# One square of a body that flows, sheared or stretched by its supports.
-SHEARED = """\
-{plane}
-[[body]]
-name = "a"
-mesh = {{ shape = "rectangle", cells = 1, lower = [0, 0], upper = [1, 1] }}
-material = {material}
-boundary = [ {{ label = 1, ux = "{x}", uy = 0 }}, {{ label = 2, ux = "{x}", uy = 0 }},
-             {{ label = 3, ux = "{x}", uy = 0 }}, {{ label = 4, ux = "{x}", uy = 0 }} ]
-[[quantity]]
-name = "stored"
-stored_energy = {{ body = "a" }}
-[[quantity]]
-name = "lost"
-dissipated_energy = {{ body = "a" }}
-[[quantity]]
-name = "work"
-work = {{ body = "a" }}
-[output]
-every = 1
-[time]
-end = 1
-{time}
-"""
-MAXWELL = '{ young = 1000, poisson = 0.25, law = "maxwell", relaxation_time = 0.5 }'
-SOLID = MAXWELL.replace("maxwell", "standard-solid").replace(" }", ", relaxed_fraction = 0.3 }")
+
+def sheared(material, plane, **time):
+    """One square of a body that flows, sheared by its supports."""
+    return (f'plane = "{plane}"\n'
+            + body("a", box([0, 0], [1, 1], 1), material,
+                   *(f'label = {k}, ux = "{2*STRAIN}*y", uy = 0' for k in (1, 2, 3, 4)))
+            + quantity("stored", "stored_energy", "a") + quantity("lost", "dissipated_energy", "a")
+            + quantity("work", "work", "a") + "[output]\nevery = 1\n" + timed(**time))
+
+
+MAXWELL = 'young = 1000, poisson = 0.25, law = "maxwell", relaxation_time = 0.5'
+SOLID = MAXWELL.replace("maxwell", "standard-solid") + ", relaxed_fraction = 0.3"
 STRAIN = 0.01
 GAMMA = 1 - math.sqrt(0.5)
 DECAY = {  # by which a step of z = k/tau multiplies what relaxes
@@ -110,7 +67,7 @@ class JumpAtStart(InFolder):
         for what, data in DRIVES.items():
             for plane, degree in (next(sections), next(sections)):
                 with self.subTest(what, plane=plane, degree=degree):
-                    text = STATIC.format(plane=f'plane = "{plane}"', degree=degree, data=data)
+                    text = static(data, f'plane = "{plane}"\ndegree = {degree}\n')
                     ramp = self.ends_of(text.replace("{}", "*t"))
                     jump = self.ends_of(text.replace("{}", ""))
                     self.assertGreater(abs(jump.bodies["block"].stress).max(), 1e3)
@@ -127,7 +84,7 @@ class JumpAtStart(InFolder):
                         self.assertAlmostEqual(found["stored"][when]/stored, 1, delta=1e-12)
 
     def test_no_warning_of_it(self):
-        self.write(STATIC.format(plane="", degree=1, data=DRIVES["displacement"].replace("{}", "")))
+        self.write(static(DRIVES["displacement"].replace("{}", "")))
         self.assertEqual(self.mortier("run", "scene.toml", "--quiet", "--out", "out").stderr, "")
         self.assertIn("0 warnings", self.mortier("check", "scene.toml").stdout)
 
@@ -138,10 +95,9 @@ class JumpAtStart(InFolder):
                   ("uy = 0", 'gap = "-0.01{}"\nfriction = 0.3')]
         ways = itertools.cycle((("mortar", "stress", 1), ("interpolation", "strain", 1),
                                 ("weighted", "axisymmetric", 2), ("mortar", "strain", 2)))
-        for (drive, contact), (variant, plane, degree) in zip(drives, ways):
-            with self.subTest(drive, contact=contact, variant=variant):
-                text = CONTACT.format(plane=f'plane = "{plane}"', degree=degree, variant=variant,
-                                      drive=drive, contact=contact)
+        for (drive, more), (variant, plane, degree) in zip(drives, ways):
+            with self.subTest(drive, more=more, variant=variant):
+                text = pressed(drive, more, variant, f'plane = "{plane}"\ndegree = {degree}\n')
                 if "ux" in drive:
                     text = text.replace("{ label = 4, ux = 0 }, ", "")
                 jump = self.ends_of(text.replace("{}", ""))
@@ -154,10 +110,8 @@ class JumpAtStart(InFolder):
 
     def shear(self, material, scheme, steps, plane="stress"):
         """s12 of all steps, and the energies at the end."""
-        time = f'steps = {steps}' if steps else "tolerance = 1e-2"
-        text = SHEARED.format(plane=f'plane = "{plane}"', material=material, x=f"{2*STRAIN}*y",
-                              time=f'scheme = "{scheme}"\n{time}')
-        summary = self.run_it(text)
+        summary = self.run_it(sheared(material, plane, scheme=scheme, steps=steps or None,
+                                      tolerance=None if steps else 1e-2))
         shear = [(time, read_mortier(self.folder / "out", step).bodies["a"].stress[0, 2])
                  for step, time in kept_steps(self.folder / "out")]
         return shear, summary["quantities"]
@@ -182,15 +136,15 @@ class JumpAtStart(InFolder):
                     self.assertAlmostEqual(value/8, exact, delta=1.5e-2)
 
     def test_perzyna_relaxes_to_yield(self):
-        flowing = '{ young = 1000, poisson = 0.25, viscosity = 1, yield_stress = 3 }'
+        flowing = "young = 1000, poisson = 0.25, viscosity = 1, yield_stress = 3"
         shear, _ = self.shear(flowing, "backward-euler", 0)
         self.assertAlmostEqual(shear[0][1]/8, 1, delta=1e-12)
         self.assertAlmostEqual(math.sqrt(3)*shear[-1][1], 3, delta=1e-2)
 
     def test_energies_add_up(self):
         """To the order of the scheme, and what is lost never comes back."""
-        for material in (MAXWELL, SOLID, '{ young = 1000, poisson = 0.25, law = "norton", '
-                         'reference_stress = 5, reference_rate = 1e-4, exponent = 3 }'):
+        for material in (MAXWELL, SOLID, 'young = 1000, poisson = 0.25, law = "norton", '
+                         'reference_stress = 5, reference_rate = 1e-4, exponent = 3'):
             for scheme, order, plane in (("backward-euler", 1, "stress"), ("crank-nicolson", 2, "strain"),
                                          ("sdirk2", 2, "stress")):
                 off = []
@@ -205,8 +159,7 @@ class JumpAtStart(InFolder):
                     self.assertGreater(math.log2(off[0]/off[1]), order - 0.1)
 
     def test_a_load_that_nothing_holds_ends_the_run_before_its_first_step(self):
-        text = CONTACT.format(plane="", degree=1, variant="mortar", drive="ty = 2", contact="")
-        self.write(text)
+        self.write(pressed("ty = 2"))
         errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3).stderr
         self.assertIn("at t = 0: ", errors)
         self.assertEqual(read_history(self.folder / "out.failed"), {})

@@ -5,9 +5,9 @@ import random
 from dataclasses import dataclass, field
 
 import numpy as np
-from contact_support import HELD, body, contact, quadrilateral, quantity, time
+from contact_support import HELD, quadrilateral
+from scene_parts import LARGE_CHANGES, body, box, contact, elastic, quantity, shape, stresses, timed
 
-ALLOW = '[check]\nallow = ["large-strain", "large-displacement", "large-rotation", "sliver"]\n'
 
 
 @dataclass
@@ -22,16 +22,11 @@ class Scene:
     degree: int = 1
 
     def text(self, degree, factor):
-        return f"degree = {degree}\n{self.head}{self.make(factor)}{ALLOW}"
+        return f"degree = {degree}\n{self.head}{self.make(factor)}{LARGE_CHANGES}"
 
 
 def point(name, of, place, component):
-    return quantity(name, "displacement", of, None, component, f", point = [{', '.join(map(repr, place))}]")
-
-
-def stresses(*bodies):
-    return "".join(quantity(f"energy_{each}", "stored_energy", each)
-                   + quantity(f"mises_{each}", "largest_mises", each) for each in bodies)
+    return quantity(name, "displacement", of, None, component, point=place)
 
 
 def pressures(of, label, size="contact_length", mean=True):
@@ -40,16 +35,8 @@ def pressures(of, label, size="contact_length", mean=True):
     return "".join(quantity(kind, kind, of, label) for kind in kinds)
 
 
-def box(lower, upper, cells, more="", cut=None):
-    shape = "rectangle" if len(lower) == 2 else "cuboid"
-    cut = f', cut = "{cut}"' if cut else ""
-    return (f'{{ shape = "{shape}", lower = {list(lower)}, upper = {list(upper)}, cells = {list(cells)}'
-            f"{cut}{more} }}")
-
-
-def ring(inner, outer, cells, more=""):
-    return (f'{{ shape = "annulus", inner = {inner!r}, outer = {outer!r}, span = "quarter", cells = '
-            f"{list(cells)}{more} }}")
+def ring(inner, outer, cells, **keys):
+    return shape("annulus", inner=inner, outer=outer, span="quarter", cells=cells, **keys)
 
 
 def material(text, law):
@@ -92,34 +79,34 @@ def tube(rng, kind):
         def make(f):
             mesh = box([a, 0], [b, height], [across * f, max(1, around // 3) * f])
             held = ["label = 1, uy = 0", "label = 3, uy = 0"]
-            return (body("tube", mesh, [*held, f"label = 4, {load}"], young, poisson)
+            return (body("tube", mesh, elastic(young, poisson), *held, f"label = 4, {load}")
                     + quantity("axial", "reaction", "tube", 3, "y") + point("bore", "tube", [a, 0.0], "x")
-                    + quantity("outside", "displacement", "tube", 2, "x") + stresses("tube") + time())
+                    + quantity("outside", "displacement", "tube", 2, "x") + stresses("tube") + timed())
         axial = 2 * poisson * exact.a * math.pi * (b * b - a * a)
         return Scene(make, {**known, "axial": axial, "energy_tube": 2 * math.pi * height * work},
                      'plane = "axisymmetric"\n', adapts=True)
 
     if kind == "space" and rng.random() < 0.5:
         def make(f):
-            mesh = box([a, 0], [b, height], [across * f, f], f', revolve = "pi/2", layers = {around * f}')
+            mesh = box([a, 0], [b, height], [across * f, f], revolve="pi/2", layers=around * f)
             held = ["label = 1, uy = 0", "label = 3, uy = 0", 'label = "start", uz = 0',
                     'label = "end", ux = 0']
-            return (body("tube", mesh, [*held, f"label = 4, {load}"], young, poisson)
+            return (body("tube", mesh, elastic(young, poisson), *held, f"label = 4, {load}")
                     + quantity("held", "reaction", "tube", "start", "z")
                     + point("bore", "tube", [a, 0.0, 0.0], "x") + point("outside", "tube", [b, 0.0, 0.0], "x")
-                    + stresses("tube") + time())
+                    + stresses("tube") + timed())
         return Scene(make, {**known, "held": -p * a * height, "energy_tube": math.pi / 2 * height * work},
                      "dimension = 3\n")
 
     def make(f):
         space = kind == "space"
-        layers = f", extrude = {height!r}, layers = {max(1, across // 2) * f}" if space else ""
+        layers = {"extrude": height, "layers": max(1, across // 2) * f} if space else {}
         place = [a, 0.0, 0.0][:3 if space else 2]
         held = SYMMETRIC + (ENDS if space else [])
-        mesh = ring(a, b, [around * f, across * f], layers)
-        return (body("tube", mesh, [*held, f"label = 1, {load}"], young, poisson)
+        mesh = ring(a, b, [around * f, across * f], **layers)
+        return (body("tube", mesh, elastic(young, poisson), *held, f"label = 1, {load}")
                 + quantity("held", "reaction", "tube", 3, "y") + point("bore", "tube", place, "x")
-                + point("outside", "tube", [b, *place[1:]], "x") + stresses("tube") + time())
+                + point("outside", "tube", [b, *place[1:]], "x") + stresses("tube") + timed())
     depth = height if kind == "space" else 1
     known |= {"held": -p * a * depth, "energy_tube": math.pi / 2 * depth * work}
     return Scene(make, known, "dimension = 3\n" if kind == "space" else 'plane = "strain"\n',
@@ -144,23 +131,23 @@ def shrink_fit(rng, kind):
     if kind == "axis":
         def make(f):
             ends = ["label = 1, uy = 0", "label = 3, uy = 0"]
-            text = "".join(body(name, box([r, 0], [s, height], [n[1] * f, max(1, n[0] // 3) * f]), ends, e,
-                                poisson)
+            text = "".join(body(name, box([r, 0], [s, height], [n[1] * f, max(1, n[0] // 3) * f]),
+                                elastic(e, poisson), *ends)
                            for name, r, s, n, e in (("hub", a, c, cells[0], young[0]),
                                                     ("sleeve", c, b, cells[1], young[1])))
             sides = [("hub", 2), ("sleeve", 4)]
             return (text + contact(*(sides if first else sides[::-1]), gap=-over)
                     + quantity("bore", "displacement", "hub", 4, "x")
                     + quantity("outside", "displacement", "sleeve", 2, "x")
-                    + pressures(*sides[0]) + stresses("hub", "sleeve") + time())
+                    + pressures(*sides[0]) + stresses("hub", "sleeve") + timed())
         return Scene(make, known | {"contact_length": height}, 'plane = "axisymmetric"\n', adapts=True)
 
     def make(f):
         space = kind == "space"
         ends = SYMMETRIC + (ENDS if space else [])
-        layers = f", extrude = {height!r}, layers = {f}" if space else ""
+        layers = {"extrude": height, "layers": f} if space else {}
         zero = [0.0] if space else []
-        text = "".join(body(name, ring(r, s, [n[0] * f, n[1] * f], layers), ends, e, poisson)
+        text = "".join(body(name, ring(r, s, [n[0] * f, n[1] * f], **layers), elastic(e, poisson), *ends)
                        for name, r, s, n, e in (("hub", a, c, cells[0], young[0]),
                                                 ("sleeve", c, b, cells[1], young[1])))
         sides = [("hub", 2), ("sleeve", 1)]
@@ -169,7 +156,7 @@ def shrink_fit(rng, kind):
                 + point("outside", "sleeve", [b, 0.0, *zero], "x")
                 + quantity("cut", "reaction", "sleeve", 3, "y") + pressures(*sides[0], "contact_area" if space
                                                                             else "contact_length")
-                + stresses("hub", "sleeve") + time())
+                + stresses("hub", "sleeve") + timed())
     depth = height if kind == "space" else 1
     known |= {"cut": -p * c * depth}
     known["contact_area" if kind == "space" else "contact_length"] = math.pi / 2 * c * depth
@@ -189,14 +176,14 @@ def beam(rng, space=False, law=None, moved=False, steps=1):
     def make(f):
         size = [length, h, h] if space else [length, h]
         cells = [along * f] + [n * f] * (len(size) - 1)
-        text = body("beam", box([0] * len(size), size, cells, cut=None if space else rng_cut),
-                    [f"label = 4, {HELD}{zero}", f"label = 2, {load}"], young)
+        text = body("beam", box([0] * len(size), size, cells, cut=None if space else rng_cut), young,
+                    f"label = 4, {HELD}{zero}", f"label = 2, {load}")
         middle = [length / 2, *[h / 2] * (len(size) - 1)]
         return (material(text, law) if law else text) + (
             quantity("held", "reaction", "beam", 4, axis)
             + quantity("moment", "reaction", "beam", 4, "moment_y" if space else "moment")
             + ("" if moved else quantity("tip", "displacement", "beam", 2, axis))
-            + point("middle", "beam", middle, axis) + stresses("beam") + time(steps))
+            + point("middle", "beam", middle, axis) + stresses("beam") + timed(steps))
     rng_cut = rng.choice(["rising", "both"])
     known = {} if moved else {"held": q, "moment": q * (length if not space else -length)}
     return Scene(make, known, "dimension = 3\n" if space else "", finer=2 if space else 4,
@@ -210,10 +197,10 @@ def bar(rng):
 
     def make(f):
         weight = f'force = {{ y = "{-g!r}*(1 + {part / length!r}*y)*t" }}\n'
-        return (body("bar", box([0, 0], [1, length], [n * f for n in cells]), [f"label = 1, {HELD}"], young,
-                     0.0, weight)
+        return (body("bar", box([0, 0], [1, length], [n * f for n in cells]), elastic(young, 0.0),
+                     f"label = 1, {HELD}", more=weight)
                 + quantity("held", "reaction", "bar", 1, "y") + quantity("top", "displacement", "bar", 3, "y")
-                + point("middle", "bar", [0.5, length / 2], "y") + stresses("bar") + time())
+                + point("middle", "bar", [0.5, length / 2], "y") + stresses("bar") + timed())
     force = g * length * (1 + part / 2)
     # s(y) = -g ((L - y) + part (L^2 - y^2)/(2 L))
     sinks = lambda y: -g / young * (length * y - y * y / 2 + part * (length * y / 2 - y**3 / (6 * length)))
@@ -234,27 +221,27 @@ def heated(rng):
 
         def make(f):
             temperature = f'temperature = "{hot!r}*t*log({b!r}/sqrt(x^2 + y^2))"\n'
-            return (material(body("tube", ring(1.0, b, [n * f for n in cells]), SYMMETRIC, 1e5,
+            return (material(body("tube", ring(1.0, b, [n * f for n in cells]), 1e5, *SYMMETRIC,
                                   more=temperature), expands)
                     + quantity("held", "reaction", "tube", 3, "y") + point("bore", "tube", [1.0, 0.0], "x")
-                    + point("outside", "tube", [b, 0.0], "x") + stresses("tube") + time())
+                    + point("outside", "tube", [b, 0.0], "x") + stresses("tube") + timed())
         return Scene(make, {"held": 0}, 'plane = "strain"\n')
     length = rng.uniform(1, 4)
 
     def make(f):
         temperature = f'temperature = "{hot!r}*t*x*({length!r} - x)"\n'
-        return (material(body("bar", box([0, 0], [length, 1], [n * f for n in cells]),
-                              ["label = 1, uy = 0", "label = 2, ux = 0", "label = 4, ux = 0"], 1e5,
+        return (material(body("bar", box([0, 0], [length, 1], [n * f for n in cells]), 1e5,
+                              "label = 1, uy = 0", "label = 2, ux = 0", "label = 4, ux = 0",
                               more=temperature), expands)
                 + quantity("wall", "reaction", "bar", 2, "x") + quantity("top", "displacement", "bar", 3, "y")
-                + stresses("bar") + time())
+                + stresses("bar") + timed())
     return Scene(make)
 
 
 def block(f, width, depth, cells, name="block", young=1e3):
     return body(name, box([-width, -depth], [width, 0], [cells[0] * f, cells[1] * f],
-                          f", focus = [0, 0], grading = [{cells[2]}, {cells[2]}]", "both"),
-                [f"label = 1, {HELD}"], young)
+                          cut="both", focus=[0, 0], grading=[cells[2], cells[2]]), young,
+                f"label = 1, {HELD}")
 
 
 def roller(rng):
@@ -274,13 +261,13 @@ def roller(rng):
         sides = [("disc", 1), ("block", 3)]
         disc = (f'{{ shape = "halfdisc", radius = {radius}, core = {core!r}, lowest = [0, 0], '
                 f"cells = {cells * f} }}")
-        return (body("disc", disc, ["label = 2, " + load], young[0])
+        return (body("disc", disc, young[0], "label = 2, " + load)
                 + block(f, 12.0, 12.0, below, young=young[1])
                 + contact(*(sides if first else sides[::-1]))
                 + quantity("contact", "contact_force", "block", 3, "y")
                 + quantity("floor", "reaction", "block", 1, "y")
                 + quantity("sinks", "displacement", "disc", 2, "y") + point("under", "block", [0.0, 0.0], "y")
-                + pressures("disc", 1, mean=False) + stresses("disc", "block") + time())
+                + pressures("disc", 1, mean=False) + stresses("disc", "block") + timed())
     return Scene(make, {"contact": -force, "floor": force} if pushed else {}, 'plane = "strain"\n', finer=3,
                  adapts=True)
 
@@ -299,13 +286,13 @@ def ball_about_axis(rng):
     def make(f):
         ball = (f'{{ shape = "quarterdisc", radius = {radius}, core = {core!r}, lowest = [0, 0], '
                 f"cells = {cells * f} }}")
-        under = box([0, -12], [12, 0], [n * f for n in below], ", focus = [0, 0], grading = [8, 8]", "both")
-        return (body("ball", ball, ["label = 2, " + load], young[0])
-                + body("block", under, ["label = 1, uy = 0"], young[1]) + contact(("ball", 1), ("block", 3))
+        under = box([0, -12], [12, 0], [n * f for n in below], cut="both", focus=[0, 0], grading=[8, 8])
+        return (body("ball", ball, young[0], "label = 2, " + load)
+                + body("block", under, young[1], "label = 1, uy = 0") + contact(("ball", 1), ("block", 3))
                 + quantity("contact", "contact_force", "block", 3, "y")
                 + quantity("floor", "reaction", "block", 1, "y")
                 + quantity("sinks", "displacement", "ball", 2, "y") + point("under", "block", [0.0, 0.0], "y")
-                + pressures("ball", 1, mean=False) + stresses("ball", "block") + time())
+                + pressures("ball", 1, mean=False) + stresses("ball", "block") + timed())
     return Scene(make, {"contact": -force, "floor": force} if pushed else {}, 'plane = "axisymmetric"\n',
                  finer=3, adapts=True)
 
@@ -327,17 +314,18 @@ def punch(rng):
                     f'fy = "-{force!r}*t"\n' + block(f, 5.0, 5.0, below)
                     + contact(("block", 3), ("punch", 1)) + values
                     + quantity("sinks", "displacement", "punch", None, "y")
-                    + quantity("turning", "reaction", "punch", None, "moment")
-                    + quantity("mean_pressure", "mean_pressure", "punch", 1) + stresses("block") + time())
+                    + quantity("turning", "reaction", "punch", None, "moment", [0, 0])
+                    + quantity("mean_pressure", "mean_pressure", "punch", 1) + stresses("block") + timed())
     else:
         known |= {"mean_pressure": force / 2, "floor_moment": off * force}
         load = f'ux = 0, ty = "-{force / 2!r}*t*(1 + {3 * off!r}*x)"'
 
         def make(f):
-            return (body("punch", box([-1, 0], [1, 1], [n * f for n in cells]), ["label = 3, " + load])
+            return (body("punch", box([-1, 0], [1, 1], [n * f for n in cells]), 1000.0,
+                         "label = 3, " + load)
                     + block(f, 5.0, 5.0, below) + contact(("punch", 1), ("block", 3)) + values
                     + quantity("sinks", "displacement", "punch", 3, "y")
-                    + pressures("punch", 1) + stresses("punch", "block") + time())
+                    + pressures("punch", 1) + stresses("punch", "block") + timed())
         known.pop("floor_moment")
     return Scene(make, known, 'plane = "strain"\n', adapts=True)
 
@@ -357,14 +345,16 @@ def groove(rng):
             foot = -n
             corners = [foot - 0.7 * along - 0.8 * n, foot + 0.7 * along - 0.8 * n, foot + 0.7 * along,
                        foot - 0.7 * along]
-            text += (body(name, quadrilateral(corners, [n * f for n in cells]), [f"label = 1, {HELD}"], young)
+            text += (body(name, quadrilateral(corners, [n * f for n in cells]), young,
+                          f"label = 1, {HELD}")
                      + contact((name, 3), ("disc", 1)))
             text += (quantity(f"{name}_x", "contact_force", name, 3, "x")
                      + quantity(f"{name}_y", "contact_force", name, 3, "y")
                      + quantity(f"{name}_moment", "contact_force", name, 3, "moment"))
         return (text + quantity("sinks", "displacement", "disc", None, "y")
                 + quantity("goes", "displacement", "disc", None, "x")
-                + quantity("moment", "reaction", "disc", None, "moment") + stresses("left", "right") + time())
+                + quantity("moment", "reaction", "disc", None, "moment", [0, 0]) + stresses("left", "right")
+                + timed())
     a, b = turns
     left, right = force * math.sin(b) / math.sin(a + b), force * math.sin(a) / math.sin(a + b)
     known = {"left_x": -left * math.sin(a), "left_y": -left * math.cos(a), "right_x": right * math.sin(b),
@@ -380,13 +370,14 @@ def dragged(rng):
 
     def make(f):
         top = f'ty = "-{p!r}*min(4*t, 1)", ux = "{0.05 if slides else 1e-4}*max(0, t - 0.25)"'
-        return (body("upper", box([-width, 0], [width, 1], [n * f for n in cells]), ["label = 3, " + top])
+        return (body("upper", box([-width, 0], [width, 1], [n * f for n in cells]), 1000.0,
+                     "label = 3, " + top)
                 + block(f, 4.0, 3.0, below, "lower") + contact(("upper", 1), ("lower", 3), friction=mu)
                 + quantity("press", "contact_force", "lower", 3, "y")
                 + quantity("drag", "contact_force", "lower", 3, "x")
                 + quantity("push", "reaction", "upper", 3, "x")
                 + quantity("sinks", "displacement", "upper", 3, "y") + pressures("upper", 1)
-                + stresses("upper", "lower") + time(4))
+                + stresses("upper", "lower") + timed(4))
     force = 2 * width * p
     known = {"press": -force}
     if slides:
@@ -402,13 +393,13 @@ def belt(rng):
     def make(f):
         return ('[[tool]]\nname = "pulley"\nshape = "disc"\ncentre = [0, 0]\nradius = 1\n'
                 'rotation = "-0.05*max(0, t - 0.5)"\n'
-                + body("belt", ring(1.0, 1 + thick, [n * f for n in cells]),
-                       [f'label = 3, pressure = "-{pull!r}*min(2*t, 1)"', "label = 4, un = 0"], 1e5)
+                + body("belt", ring(1.0, 1 + thick, [n * f for n in cells]), 1e5,
+                       f'label = 3, pressure = "-{pull!r}*min(2*t, 1)"', "label = 4, un = 0")
                 + contact(("belt", 1), ("pulley", 1), friction=mu, variant="weighted")
                 + quantity("held", "reaction", "belt", 4, "x")
-                + quantity("moment", "reaction", "pulley", None, "moment")
+                + quantity("moment", "reaction", "pulley", None, "moment", [0, 0])
                 + quantity("side", "reaction", "pulley", None, "y")
-                + quantity("mean_pressure", "mean_pressure", "belt", 1) + stresses("belt") + time(6))
+                + quantity("mean_pressure", "mean_pressure", "belt", 1) + stresses("belt") + timed(6))
     return Scene(make, {"side": pull * thick}, finer=3)
 
 
@@ -423,14 +414,14 @@ def rolling(rng):
         turn = "moment = 0\n" if free else ""
         return (f'[[tool]]\nname = "disc"\nshape = "disc"\ncentre = [0, {radius}]\nradius = {radius}\n'
                 f'ux = "{far!r}*max(0, t - 0.25)"\nfy = "-{force!r}*min(4*t, 1)"\n{turn}'
-                + body("block", box([-1.5, -1], [2.5, 0], [n * f for n in cells], cut="both"),
-                       [f"label = 1, {HELD}"], 200.0)
+                + body("block", box([-1.5, -1], [2.5, 0], [n * f for n in cells], cut="both"), 200.0,
+                       f"label = 1, {HELD}")
                 + contact(("block", 3), ("disc", 1), friction=mu, sliding="finite", variant="weighted")
                 + quantity("press", "contact_force", "block", 3, "y")
                 + quantity("floor", "reaction", "block", 1, "y")
                 + quantity("drag", "reaction", "disc", None, "x")
-                + ("" if free else quantity("torque", "reaction", "disc", None, "moment"))
-                + stresses("block") + time(6))
+                + ("" if free else quantity("torque", "reaction", "disc", None, "moment", [0, 0]))
+                + stresses("block") + timed(6))
     known = {"press": -force, "floor": force}
     return Scene(make, known, 'plane = "strain"\n', finer=3)
 
@@ -448,10 +439,10 @@ def uniform_creep(rng):
 
     def make(f):
         held = ["label = 4, ux = 0", "label = 1, uy = 0"]
-        return (material(body("bar", box([0, 0], [2, 1], [n * f for n in cells]),
-                              [*held, f'label = 2, tx = "{pull!r}*min(2*t, 1)"']), law)
+        return (material(body("bar", box([0, 0], [2, 1], [n * f for n in cells]), 1000.0, *held,
+                              f'label = 2, tx = "{pull!r}*min(2*t, 1)"'), law)
                 + quantity("held", "reaction", "bar", 4, "x") + quantity("end", "displacement", "bar", 2, "x")
-                + stresses("bar") + time(6))
+                + stresses("bar") + timed(6))
     return Scene(make, {"held": -pull, "mises_bar": pull}, finer=2)
 
 
@@ -464,10 +455,10 @@ def perzyna(rng):
 
     def make(f):
         wider = f'label = 1, ux = "{over * 1e-3!r}*x*t", uy = "{over * 1e-3!r}*y*t"'
-        return (material(body("tube", ring(1.0, b, [n * f for n in cells]), [*SYMMETRIC, wider], 1e3),
+        return (material(body("tube", ring(1.0, b, [n * f for n in cells]), 1e3, *SYMMETRIC, wider),
                          "viscosity = 10, yield_stress = 1")
                 + quantity("held", "reaction", "tube", 3, "y") + point("outside", "tube", [b, 0.0], "x")
-                + stresses("tube") + time(8))
+                + stresses("tube") + timed(8))
     return Scene(make, {}, 'plane = "strain"\n')
 
 
@@ -479,17 +470,17 @@ def cuboids(rng):
 
     def make(f):
         sizes = ([0, 0, 0], [width, width, 0.6]), ([0, 0, -1], [1, 1, 0])
-        upper = body("upper", box(*sizes[0], [n * f for n in cells[0]]),
-                     [*CORNER, f'label = 3, tz = "-{p!r}*t*(1 + {slopes[0] / width!r}*x '
-                               f'+ {slopes[1] / width!r}*y)"'])
-        lower = body("lower", box(*sizes[1], [(n + 1) * f for n in cells[1]]),
-                     [*CORNER, "label = 1, uz = 0"])
+        upper = body("upper", box(*sizes[0], [n * f for n in cells[0]]), 1000.0, *CORNER,
+                     f'label = 3, tz = "-{p!r}*t*(1 + {slopes[0] / width!r}*x '
+                               f'+ {slopes[1] / width!r}*y)"')
+        lower = body("lower", box(*sizes[1], [(n + 1) * f for n in cells[1]]), 1000.0, *CORNER,
+                     "label = 1, uz = 0")
         return (upper + lower + contact(("upper", 1), ("lower", 3))
                 + quantity("contact", "contact_force", "lower", 3, "z")
                 + quantity("contact_moment", "contact_force", "lower", 3, "moment_y")
                 + quantity("floor", "reaction", "lower", 1, "z")
                 + quantity("top", "displacement", "upper", 3, "z") + pressures("upper", 1, "contact_area")
-                + stresses("upper", "lower") + time())
+                + stresses("upper", "lower") + timed())
     area = width**2
     force = p * area * (1 + slopes[0] / 2 + slopes[1] / 2)
     return Scene(make, {"contact": -force, "floor": force, "mean_pressure": force / area}, "dimension = 3\n",
@@ -507,13 +498,13 @@ def ball(rng):
     def make(f):
         mesh = (f'{{ shape = "ball", centre = [0, 0, 1], radius = 1, cells = {cells * f}, '
                 'keep = ["x", "y", "-z"] }')
-        return (body("ball", mesh, [*CORNER, "label = 3, " + load], young[0])
-                + body("block", box([0, 0, -1], [1, 1, 0], [n * f for n in below]),
-                       [*CORNER, "label = 1, uz = 0"], young[1])
+        return (body("ball", mesh, young[0], *CORNER, "label = 3, " + load)
+                + body("block", box([0, 0, -1], [1, 1, 0], [n * f for n in below]), young[1], *CORNER,
+                       "label = 1, uz = 0")
                 + contact(("ball", 7), ("block", 3)) + quantity("contact", "contact_force", "block", 3, "z")
                 + quantity("floor", "reaction", "block", 1, "z")
                 + quantity("sinks", "displacement", "ball", 3, "z")
-                + pressures("ball", 7, "contact_area") + stresses("ball", "block") + time())
+                + pressures("ball", 7, "contact_area") + stresses("ball", "block") + timed())
     return Scene(make, {"contact": -force, "floor": force} if pushed else {}, "dimension = 3\n", finer=2)
 
 

@@ -17,7 +17,8 @@ import random
 import re
 import sys
 
-from contact_support import HELD, UNRESOLVED, body, command, contact, forces, rectangle, solve, time
+from contact_support import HELD, UNRESOLVED, command, forces, rectangle, solve
+from scene_parts import body, contact, timed
 
 FORCE = 0.2
 TIPS = 0.005
@@ -88,10 +89,10 @@ class Pair:
                      + moved.replace(", uy", "\nuy") + "\n")
         else:
             upper = body("u", f'{{ shape = "halfdisc", radius = {radius!r}, core = {core!r}, '
-                         f'cells = {cells}, cut = "both" }}', [f"label = 2, {moved}"], self.young[0])
+                         f'cells = {cells}, cut = "both" }}', self.young[0], f"label = 2, {moved}")
         if self.kind in ("disc on block", "tool on block"):
-            lower = body("l", graded(radius, other, self.shift * other, side), [f"label = 1, {HELD}"],
-                         self.young[1])
+            lower = body("l", graded(radius, other, self.shift * other, side), self.young[1],
+                         f"label = 1, {HELD}")
         elif self.kind == "disc on line":
             second = ("l", 1)
             lower = (f'[[tool]]\nname = "l"\nshape = "line"\npoints = [[{0.9 * radius!r}, 0], '
@@ -105,7 +106,7 @@ class Pair:
                     'cut = "both" }')
             near, far = (1, 2) if self.other < 0 else (2, 1)
             second = ("l", near)
-            lower = body("l", mesh, [f"label = {far}, {HELD}"], self.young[1])
+            lower = body("l", mesh, self.young[1], f"label = {far}, {HELD}")
         both = [first, second]
         body_only = {"tool on block": second, "disc on line": first}.get(self.kind)
         if body_only:
@@ -116,7 +117,7 @@ class Pair:
         return (f"degree = {1 if exact else self.degree}\n" + 'plane = "strain"\n' + upper + lower
                 + contact(*both, self.sides == "any" or exact, variant="weighted" if exact else self.variant,
                           sliding="refuse" if exact else self.sliding)
-                + forces("reaction", *where) + time())
+                + forces("reaction", *where) + timed())
 
     def constant(self, program):
         """K of the bodies by a fine mesh, on which the half width is about a twentieth of the radius."""
@@ -175,17 +176,17 @@ class Tipping:
         friction = 1.3 * self.width / self.height + 0.2
         push = self.width / self.height * self.width  # of a weight of 1 per area
         in_time = "(t < 0.5 ? 1.8*t : 0.9 + 0.3*(t - 0.5))"
-        floor = body("l", rectangle((-2, -0.5), (self.width + 2, 0), self.floor), [f"label = 1, {HELD}"],
-                     self.young[1])
-        block = body("u", rectangle((0, 0), (self.width, self.height), self.cells),
-                     [f'label = 4, tx = "{push!r}*{in_time}"'], self.young[0], more="force = { y = -1 }\n")
+        floor = body("l", rectangle((-2, -0.5), (self.width + 2, 0), self.floor), self.young[1],
+                     f"label = 1, {HELD}")
+        block = body("u", rectangle((0, 0), (self.width, self.height), self.cells), self.young[0],
+                     f'label = 4, tx = "{push!r}*{in_time}"', more="force = { y = -1 }\n")
         both = [("u", 1), ("l", 3)]
         if self.sides == "lower":
             both.reverse()
         steps = 200
         run = solve(program, f"degree = {self.degree}\n" + floor + block
                     + contact(*both, self.sides == "any", variant=self.variant, friction=round(friction, 6),
-                              sliding=self.sliding) + time(steps) + "[output]\nevery = 0\n")
+                              sliding=self.sliding) + timed(steps) + "[output]\nevery = 0\n")
         found = re.search(r" at t = ([\d.e+-]+)", run.told)
         if run.code != 3 or not found:
             return [run.end]

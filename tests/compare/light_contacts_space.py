@@ -15,6 +15,7 @@ import random
 import sys
 
 from contact_support import command, solve
+from scene_parts import body, box, contact, quantity, shape, timed, written
 
 KINDS = ("ball", "roller", "turned ball", "turned roller", "crossed cylinders", "ball in cup", "barrel",
          "torus", "second contact")
@@ -89,13 +90,7 @@ def lying_geo(radius, angle):
 
 def block(cells):
     n = max(2, cells)
-    return (f'{{ shape = "cuboid", lower = [-1.5, -1.5, -1.5], upper = [1.5, 1.5, 0], '
-            f'cells = [{2 * n}, {2 * n}, {n}] }}')
-
-
-def body(name, mesh, boundary, young, more=""):
-    return (f'[[body]]\nname = "{name}"\nmesh = {mesh}\nmaterial = {{ young = {young!r}, poisson = 0.3 }}\n'
-            f"boundary = [ {boundary} ]\n{more}")
+    return box([-1.5, -1.5, -1.5], [1.5, 1.5, 0], [2 * n, 2 * n, n])
 
 
 class Scene:
@@ -128,21 +123,18 @@ class Scene:
         up, low = (1, 2), ("top", "bottom")
         lower = block(self.cells)
         if self.kind in ("ball", "second contact"):
-            upper = (f'{{ shape = "ball", centre = [0, 0, 1], radius = 1, keep = ["-z"], '
-                     f'cells = {self.cells} }}')
-            up = ('"round"', '"top"')
+            upper = shape("ball", centre=[0, 0, 1], radius=1, keep=["-z"], cells=self.cells)
+            up = "round", "top"
         elif self.kind == "roller":
             # Along z: the block is beside it.
             self.line = 1.0
-            upper = (f'{{ shape = "cylinder", centre = [0, 0, 0], radius = 1, height = 1, keep = ["x"], '
-                     f'cells = [{self.cells + 1}, 2] }}')
-            lower = (f'{{ shape = "cuboid", lower = [1, -1.5, 0], upper = [2.5, 1.5, 1], '
-                     f'cells = [{self.cells}, {2 * self.cells}, 2] }}')
-            first = body("u", upper, f'{{ label = "left", ux = "{self.approach!r}*t", uy = 0, uz = 0 }}',
-                         self.young[0])
-            second = body("l", lower, '{ label = "right", ux = 0, uy = 0, uz = 0 }', self.young[1])
-            return self.scene(first, second, '{ body = "u", label = "round" }',
-                              '{ body = "l", label = "left" }', "left", "x")
+            upper = shape("cylinder", centre=[0, 0, 0], radius=1, height=1, keep=["x"],
+                          cells=[self.cells + 1, 2])
+            lower = box([1, -1.5, 0], [2.5, 1.5, 1], [self.cells, 2 * self.cells, 2])
+            first = body("u", upper, self.young[0],
+                         f'label = "left", ux = "{self.approach!r}*t", uy = 0, uz = 0')
+            second = body("l", lower, self.young[1], 'label = "right", ux = 0, uy = 0, uz = 0')
+            return self.scene(first, second, "round", "left", "left", "x")
         elif self.kind == "turned ball":
             upper = self.geo("u.geo", ball_geo(self.angles))
         elif self.kind == "turned roller":
@@ -154,8 +146,7 @@ class Scene:
         elif self.kind == "torus":
             self.line = 4 * math.pi
             upper = self.geo("u.geo", torus_geo())
-            lower = ('{ shape = "cuboid", lower = [-3.5, -3.5, -1.5], upper = [3.5, 3.5, 0], '
-                     'cells = [10, 10, 3] }')
+            lower = box([-3.5, -3.5, -1.5], [3.5, 3.5, 0], [10, 10, 3])
         elif self.kind == "crossed cylinders":
             self.curved = math.sqrt(self.other)
             upper = self.geo("u.geo", roller_geo(self.angles))
@@ -167,27 +158,23 @@ class Scene:
         if lower.startswith("{ file"):
             low = (1, 2)
         else:
-            low = ('"top"', '"bottom"')
+            low = "top", "bottom"
         more = ""
         if self.kind == "second contact":
             # A weight on the block, which presses from the beginning.
-            weight = ('{ shape = "cuboid", lower = [-1.5, 1, 0], upper = [1.5, 1.5, 0.5], '
-                      'cells = [6, 2, 2] }')
-            more = (body("w", weight, '{ label = "left", ux = 0, uy = 0 }, '
-                         '{ label = "top", uz = "-0.01*t" }', 1000.0)
-                    + '[[contact]]\nsides = [ { body = "w", label = "bottom" }, '
-                      '{ body = "l", label = "top" } ]\n')
-        first = body("u", upper, f'{{ label = {up[1]}, ux = 0, uy = 0, uz = "{depth}" }}', self.young[0])
-        second = body("l", lower, f"{{ label = {low[1]}, ux = 0, uy = 0, uz = 0 }}", self.young[1], more)
-        return self.scene(first, second, f'{{ body = "u", label = {up[0]} }}',
-                          f'{{ body = "l", label = {low[0]} }}', up[1], "z")
+            weight = box([-1.5, 1, 0], [1.5, 1.5, 0.5], [6, 2, 2])
+            more = (body("w", weight, 1000.0, 'label = "left", ux = 0, uy = 0',
+                         'label = "top", uz = "-0.01*t"')
+                    + contact(("w", "bottom"), ("l", "top"), sides=True))
+        first = body("u", upper, self.young[0], f'label = {written(up[1])}, ux = 0, uy = 0, uz = "{depth}"')
+        second = body("l", lower, self.young[1], f"label = {written(low[1])}, ux = 0, uy = 0, uz = 0",
+                      more=more)
+        return self.scene(first, second, up[0], low[0], up[1], "z")
 
     def scene(self, upper, lower, one, other, held, axis):
-        label = held if str(held).startswith('"') or isinstance(held, int) else f'"{held}"'
         return (f"dimension = 3\ndegree = {self.degree}\n" + upper + lower
-                + f"[[contact]]\nsides = [ {one}, {other} ]\n[[quantity]]\nname = \"F\"\n"
-                f'reaction = {{ body = "u", label = {label} }}\ncomponent = "{axis}"\n'
-                "[time]\nend = 1\nsteps = 1\n")
+                + contact(("u", one), ("l", other), sides=True) + quantity("F", "reaction", "u", held, axis)
+                + timed())
 
     def hertz(self):
         """Force of half spaces at this approach, of a line a lower bound of it."""

@@ -3,33 +3,13 @@ import itertools
 import re
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed
 from support import ROOT, InFolder, mortier
 
-SCENE = """
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", cells = 3, lower = [0, 0], upper = [1, 1] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [{ label = 4, ux = 0 }, { label = 3, ty = -1 }]
-
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", cells = 4, lower = [0, -1], upper = [1, 0] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [{ label = 4, ux = 0 }, { label = 1, uy = 0 }]
-
-[[contact]]
-sides = [{ body = "upper", label = 1 }, { body = "lower", label = 3 }]
-
-[[quantity]]
-name = "force"
-reaction = { body = "lower", label = 1 }
-component = "y"
-
-[time]
-end = 1
-steps = 2
-"""
+SCENE = (body("upper", box([0, 0], [1, 1], 3), 1000, "label = 4, ux = 0", "label = 3, ty = -1")
+         + body("lower", box([0, -1], [1, 0], 4), 1000, "label = 4, ux = 0", "label = 1, uy = 0")
+         + contact(("upper", 1), ("lower", 3), sides=True) + quantity("force", "reaction", "lower", 1, "y")
+         + timed(2))
 AXES = ('body.material={elasticity="orthotropic", young1=1000, young2=500, young3=500, poisson12=0.3, '
         'poisson13=0.3, poisson23=0.3, shear12=300%s}')
 TOOL = ('tool=[{name="plate", shape="line", points=[[-1, 1], [2, 1]], fy=-1}]',

@@ -2,35 +2,10 @@
 import math
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed
 from support import InFolder, value
 
 YIELD, VISCOSITY, LOAD, STEPS, END = 0.1, 10, math.pi / 10, 2, 1 / 30
-SCENE = f"""\
-plane = "{{plane}}"
-[[body]]
-name = "upper"
-mesh = {{{{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 6, cut = "both" }}}}
-material = {{{{ young = 3e11, poisson = 0.3, {{law}} }}}}
-boundary = [ {{{{ label = 4, ux = 0 }}}}, {{{{ label = 3, ty = {-LOAD} }}}} ]
-[[body]]
-name = "lower"
-mesh = {{{{ shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = 16, cut = "both" }}}}
-material = {{{{ young = 3e11, poisson = 0.3, {{law}} }}}}
-boundary = [ {{{{ label = 4, ux = 0 }}}}, {{{{ label = 1, uy = 0 }}}} ]
-[contact]
-nonmortar = {{{{ body = "upper", label = 1 }}}}
-mortar = {{{{ body = "lower", label = 3 }}}}
-variant = "mortar"
-swap = true
-[[quantity]]
-name = "top"
-displacement = {{{{ body = "upper", label = 3 }}}}
-component = "y"
-[time]
-end = {END}
-steps = {STEPS}
-scheme = "{{scheme}}"
-"""
 FLOWS = f"viscosity = {VISCOSITY}, yield_stress = {YIELD}"
 LAWS = {
     "viscoplastic": f'law = "viscoplastic", {FLOWS}',
@@ -40,10 +15,21 @@ LAWS = {
 }
 
 
+def scene(plane, law, scheme):
+    material = f"young = 3e11, poisson = 0.3, {law}"
+    return (f'plane = "{plane}"\n'
+            + body("upper", box([0, 0], [1, 1], 6, cut="both"), material, "label = 4, ux = 0",
+                   f"label = 3, ty = {-LOAD}")
+            + body("lower", box([0, -1], [1, 0], 16, cut="both"), material, "label = 4, ux = 0",
+                   "label = 1, uy = 0")
+            + contact(("upper", 1), ("lower", 3), variant="mortar", swap=True)
+            + quantity("top", "displacement", "upper", 3, "y") + timed(STEPS, END, scheme=scheme))
+
+
 class LongSteps(InFolder):
     def solve(self, **choices):
         law = LAWS[choices.pop("law")]
-        summary = self.run_it(SCENE.format(law=law, **choices), folder=f"out{len(self.names())}")
+        summary = self.run_it(scene(law=law, **choices), folder=f"out{len(self.names())}")
         self.assertNotIn("cut", summary["rungs"], choices)
         return summary
 

@@ -17,8 +17,8 @@ import random
 import sys
 
 import numpy as np
-from contact_support import (HELD, body, command, contact, forces, outline_geo, polygon, solve, time,
-                             vectors)
+from contact_support import HELD, command, forces, outline_geo, polygon, solve
+from scene_parts import body, contact, timed, tool
 
 EQUAL = 1e-9
 # Of the force: what the stiffness of a body 1e6 times as stiff, and estimates of almost nothing, leave.
@@ -64,7 +64,7 @@ class Scene:
     def add(self, name, parts, sides, files=None, equal=True, quantity=""):
         text = (f'degree = {self.degree}\nplane = "{self.plane}"\n' + "".join(parts)
                 + contact(*sides, variant=self.variant, sliding=self.sliding, friction=self.friction)
-                + quantity + time(self.steps))
+                + quantity + timed(self.steps))
         self.variants.append((name, text, files or {}, equal))
 
     # --- What is pressed together ---
@@ -121,7 +121,7 @@ class Scene:
         self.size = self.rng.uniform(0.05, 0.15)
         points = [(-1.5, -1), (1.5, -1), (1.5, 0), (-1.5, 0)]
         sizes = [0.3, 0.3, self.size, self.size]
-        text = body("b", '"b.geo"', [f"label = 1, {HELD}"], young)
+        text = body("b", '"b.geo"', young, f"label = 1, {HELD}")
         return text, *({"b.geo": outline_geo(points, [1, sides, 3, sides], sizes)} for sides in (2, 3))
 
     def tool_on_block(self):
@@ -153,7 +153,7 @@ class Scene:
         mesh = {"t.geo": outline_geo(points, labels, rng.uniform(0.1, 1))}
         meshed = ['[[tool]]\nname = "t"\nmesh = { file = "t.geo" }\n', *(f"{way}\n" for way in motion)]
         self.add("meshed tool", [block, *meshed], sides, {**files, **mesh}, self.sagitta == 0, force)
-        stiff = body("t", '{ file = "t.geo" }', [f"label = 3, {', '.join(motion)}"], STIFF)
+        stiff = body("t", '{ file = "t.geo" }', STIFF, f"label = 3, {', '.join(motion)}")
         self.add("stiff body", [block, stiff], sides, {**files, **mesh}, False, forces("reaction", "t", 3))
 
     def round_on_line(self):
@@ -177,14 +177,14 @@ class Scene:
         moved = "\n".join(motion)
         if side > 0:  # the line is below and moves up
             moved = moved.replace('uy = "-', 'uy = "')
-        ring = body("r", mesh, [f"label = {held}, {HELD}"])
+        ring = body("r", mesh, 1000.0, f"label = {held}, {HELD}")
         sides, force = [("r", near), ("t", 1)], forces("reaction", "t")
         half = radius * rng.choice([1.05, 1.2, 2])
 
         def table(name, half, pieces=1, whole=False, kind="polygon"):
             low = [(side * half, floor), (-side * half, floor)]
             if kind == "line":
-                drawn = f'[[tool]]\nname = "t"\nshape = "line"\npoints = {vectors(low)}\n{moved}\n'
+                drawn = tool("t", shape="line", points=low, more=moved + "\n")
                 return self.add(name, [ring, drawn], sides, quantity=force)
             depth = floor - side * radius
             points = low + [(-side * half, depth), (side * half, depth)]
@@ -225,7 +225,7 @@ class Scene:
                     f'inner = {0.4 * radius!r}, outer = {radius!r}, span = "full", '
                     f'cells = [{rng.randint(24, 64)}, 4] }}')
             near, held = 2, 1
-        upper = body("t", name, [f"label = {held}, {', '.join(motion)}"])
+        upper = body("t", name, 1000.0, f"label = {held}, {', '.join(motion)}")
         sides = [("b", 3), ("t", near)]
         if rng.random() < 0.5:
             sides.reverse()

@@ -2,34 +2,19 @@
 refinement find the contact."""
 import unittest
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from support import InFolder
 
 # By Hertz 246 N for two half spaces; 250 N for these bodies on axisymmetric meshes to 0.2 %.
 FORCE = -250.0
-SCENE = """\
-dimension = 3
-degree = 2
-units = "mm, N, MPa"
-[[body]]
-name = "ball"
-mesh = { shape = "ball", centre = [0, 0, 5], radius = 5, keep = ["x", "y", "-z"], cells = 4 }
-material = { young = "210 GPa", poisson = 0.3 }
-boundary = [{ label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", uz = -0.02 }]
-[[body]]
-name = "block"
-mesh = { shape = "cuboid", lower = [0, 0, -10], upper = [10, 10, 0], cells = 4 }
-material = { young = "210 GPa", poisson = 0.3 }
-boundary = [{ label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 }]
-[[contact]]
-sides = [{ body = "ball", label = "round" }, { body = "block", label = "top" }]
-[[quantity]]
-name = "force"
-reaction = { body = "ball", label = "top" }
-component = "z"
-[time]
-end = 1
-steps = 1
-"""
+SCENE = ('dimension = 3\ndegree = 2\nunits = "mm, N, MPa"\n'
+         + body("ball", shape("ball", centre=[0, 0, 5], radius=5, keep=["x", "y", "-z"], cells=4),
+                'young = "210 GPa", poisson = 0.3', 'label = "left", ux = 0', 'label = "front", uy = 0',
+                'label = "top", uz = -0.02')
+         + body("block", box([0, 0, -10], [10, 10, 0], 4), 'young = "210 GPa", poisson = 0.3',
+                'label = "left", ux = 0', 'label = "front", uy = 0', 'label = "bottom", uz = 0')
+         + contact(("ball", "round"), ("block", "top"), sides=True)
+         + quantity("force", "reaction", "ball", "top", "z") + timed())
 
 
 class MissedContact(InFolder):

@@ -1,27 +1,14 @@
 """Bodies that move before they touch: what rounding leaves of their motion is no stress, whatever the law."""
 import unittest
 
+from scene_parts import body, box, contact, shape, timed
 from support import InFolder
 
 # A round body above a block, at a distance of 2e-3 below which it moves by 3e-3.
-ROUND = """\
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", upper = [1, 1], cells = [4, 4], cut = "both" }
-material = { young = 2e9, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "round"
-mesh = { shape = "halfdisc", radius = 1, core = 0.3, lowest = [0.5, 1], cells = 3 }
-material = { young = 1e9, poisson = 0.3LAW }
-boundary = [ { label = 2, ux = 0, uy = "MOTION" } ]
-[contact]
-gap = 2e-3
-sides = [ { body = "round", label = 1 }, { body = "block", label = 3 } ]
-[time]
-end = 1
-STEPS
-"""
+ROUND = (body("block", box([0, 0], [1, 1], [4, 4], cut="both"), 2e9, "label = 1, ux = 0, uy = 0")
+         + body("round", shape("halfdisc", radius=1, core=0.3, lowest=[0.5, 1], cells=3),
+                "young = 1e9, poisson = 0.3LAW", 'label = 2, ux = 0, uy = "MOTION"')
+         + contact(("round", 1), ("block", 3), sides=True, gap=2e-3) + timed(None, more="STEPS\n"))
 LAWS = {
     "elastic": "",
     "maxwell": ', law = "maxwell", relaxation_time = 1',
@@ -36,84 +23,31 @@ LAWS = {
 STEPS = ("steps = 4", 'steps = 4\nscheme = "sdirk2"', 'tolerance = 0.01\nscheme = "sdirk2"')
 
 # Two blocks that are drawn apart, held to each other by a shear stress of at most 1e6, pressed or not.
-APART = """\
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", upper = [1, 1], cells = [4, 4], cut = "both" }
-material = { young = 1e9, poisson = 0.3LAW }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } ]
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3], cut = "both" }
-material = { young = 1e9, poisson = 0.3LAW }
-boundary = [ { label = 4, ux = 0 }, { label = 3, uy = "1e-4*t" } ]
-[contact]
-sides = [ { body = "lower", label = 3 }, { body = "upper", label = 1 } ]
-shear_limit = 1e6
-[time]
-end = 1
-STEPS
-"""
+APART = (body("lower", box([0, 0], [1, 1], [4, 4], cut="both"), "young = 1e9, poisson = 0.3LAW",
+              "label = 1, uy = 0", "label = 4, ux = 0")
+         + body("upper", box([0, 1], [1, 2], [3, 3], cut="both"), "young = 1e9, poisson = 0.3LAW",
+                "label = 4, ux = 0", 'label = 3, uy = "1e-4*t"')
+         + contact(("lower", 3), ("upper", 1), sides=True, shear_limit=1e6) + timed(None, more="STEPS\n"))
 
 # A disc that a line of rollers guides, on a plate that lies loose on a block: weighted gaps of a round line
 # are not zero where it touches, so the disc falls by far more than anything is strained.
-RESTING = """\
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", upper = [1, 2], cells = [4, 4], cut = "rising" }
-material = { young = 4e4, poisson = 0 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } ]
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", lower = [0, 2], upper = [1, 2.2], cells = [3, 3], cut = "both" }
-material = { young = 3e6, poisson = 0.2 }
-force.y = "-1.6e-4*t"
-boundary = [ { label = 4, ux = 0 } ]
-[[body]]
-name = "disc"
-mesh = { shape = "halfdisc", radius = 1, core = 0.3, lowest = [0.5, 2.2], cells = 3 }
-material = { young = 4e4, poisson = 0.49 }
-boundary = [ { label = 2, ux = 0, DRIVE } ]
-[[contact]]
-nonmortar = { body = "plate", label = 1 }
-mortar = { body = "block", label = 3 }
-[[contact]]
-variant = "weighted"
-nonmortar = { body = "disc", label = 1 }
-mortar = { body = "plate", label = 3 }
-[time]
-end = 1
-steps = 2
-"""
+RESTING = (body("block", box([0, 0], [1, 2], [4, 4], cut="rising"), "young = 4e4, poisson = 0",
+                "label = 1, uy = 0", "label = 4, ux = 0")
+           + body("plate", box([0, 2], [1, 2.2], [3, 3], cut="both"), "young = 3e6, poisson = 0.2",
+                  "label = 4, ux = 0", more='force.y = "-1.6e-4*t"\n')
+           + body("disc", shape("halfdisc", radius=1, core=0.3, lowest=[0.5, 2.2], cells=3),
+                  "young = 4e4, poisson = 0.49", "label = 2, ux = 0, DRIVE")
+           + contact(("plate", 1), ("block", 3)) + contact(("disc", 1), ("plate", 3), variant="weighted")
+           + timed(2))
 
 # A plate between rough lines, on a block that its own stresses lift at t = 0, when no load acts yet.
-LIFTED = """\
-plane = "strain"
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", upper = [1, 1], cells = [4, 3] }
-material = { young = 3e3, poisson = 0.49 }
-initial_stress = { s22 = -1.8 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 3], cells = [2, 1] }
-material = { young = 3e5, poisson = 0.2 }
-[[body]]
-name = "press"
-mesh = { shape = "rectangle", lower = [0, 3], upper = [1, 4], cells = [4, 4] }
-material = { young = 3e3, poisson = 0.49 }
-boundary = [ { label = 2, ux = 0 }, { label = 3, ty = "-18*t" } ]
-[[contact]]
-sides = [ { body = "plate", label = 1 }, { body = "block", label = 3 } ]
-friction = 0.3
-[[contact]]
-sides = [ { body = "press", label = 1 }, { body = "plate", label = 3 } ]
-friction = 0.3
-[time]
-end = 1
-steps = 2
-"""
+LIFTED = ('plane = "strain"\n'
+          + body("block", box([0, 0], [1, 1], [4, 3]), "young = 3e3, poisson = 0.49",
+                 "label = 1, ux = 0, uy = 0", initial_stress={"s22": -1.8})
+          + body("plate", box([0, 1], [1, 3], [2, 1]), "young = 3e5, poisson = 0.2")
+          + body("press", box([0, 3], [1, 4], [4, 4]), "young = 3e3, poisson = 0.49", "label = 2, ux = 0",
+                 'label = 3, ty = "-18*t"') + contact(("plate", 1), ("block", 3), sides=True, friction=0.3)
+          + contact(("press", 1), ("plate", 3), sides=True, friction=0.3) + timed(2))
 
 
 class MovedBodies(InFolder):

@@ -2,6 +2,7 @@
 """Contact between two sides of one body: a clip with a slit equals two jaws that are tied behind it."""
 import unittest
 
+from scene_parts import body, contact, quantity, timed, written
 from support import InFolder, values
 
 BACK, LENGTH, SLIT = 0.5, 2.0, 0.02
@@ -44,13 +45,9 @@ def part(keeps, seam):
                       *(f"{a} {b} {k}" for a, b, k in edges), "End", ""])
 
 
-def body(name, mesh, boundary, more=""):
-    return (f'[[body]]\nname = "{name}"\nmesh = {{ file = "{mesh}.mesh"{more} }}\n'
-            f"material = {{ young = 1000, poisson = 0.3 LAW }}\nboundary = [ {boundary} ]\n")
-
-
-def quantity(name, what, component=""):
-    return f'[[quantity]]\nname = "{name}"\n{what}\n' + (f'component = "{component}"\n' if component else "")
+def jaw(name, *boundary, **sweep):
+    mesh = written({"file": f"{name}.mesh", **sweep})
+    return body(name, mesh, "young = 1000, poisson = 0.3 LAW", *boundary)
 
 
 class OneBody(InFolder):
@@ -60,32 +57,29 @@ class OneBody(InFolder):
         self.write(part(lambda j: j < 2, CUT), "lower.mesh")
         self.write(part(lambda j: j > 1, CUT), "upper.mesh")
 
-    def scenes(self, head="", contact="", law="", space=False):
+    def scenes(self, head="", how="", law="", space=False):
         """Of the clip, and of two jaws."""
         held = "ux = 0, uy = 0" + (", uz = 0" if space else "")
         press = 'ty = "-3*t"'
-        more = ", extrude = 0.5, layers = 1" if space else ""
+        sweep = {"extrude": 0.5, "layers": 1} if space else {}
         tip = [LENGTH, 1 + SLIT] + [0] * space
-        numbers = [quantity("base", 'reaction = { body = "LOW", label = 1 }', "y"),
-                   quantity("along", 'reaction = { body = "LOW", label = 1 }', "x"),
-                   quantity("contact", f'contact_force = {{ body = "LOW", label = {LOWER} }}', "y"),
-                   quantity("tip", f'displacement = {{ body = "UP", point = {tip} }}', "y"),
-                   quantity("peak", f'largest_pressure = {{ body = "UP", label = {UPPER} }}')]
-        if "friction" in contact:
-            numbers.append(quantity("rubbed", f'friction_work = {{ body = "UP", label = {UPPER} }}'))
-        text = "".join(numbers) + "[time]\nend = 1\nsteps = 4\n"
-        contact = (f'[[contact]]\nnonmortar = {{ body = "UP", label = {UPPER} }}\n'
-                   f'mortar = {{ body = "LOW", label = {LOWER} }}\n{contact}\n')
+        numbers = [quantity("base", "reaction", "LOW", 1, "y"),
+                   quantity("along", "reaction", "LOW", 1, "x"),
+                   quantity("contact", "contact_force", "LOW", LOWER, "y"),
+                   quantity("tip", "displacement", "UP", component="y", point=tip),
+                   quantity("peak", "largest_pressure", "UP", UPPER)]
+        if "friction" in how:
+            numbers.append(quantity("rubbed", "friction_work", "UP", UPPER))
+        text = "".join(numbers) + timed(4)
+        between = contact(("UP", UPPER), ("LOW", LOWER), more=how + "\n")
         head += "dimension = 3\n" if space else ""
-        clip = body("clip", "clip", f"{{ label = 1, {held} }}, {{ label = 3, {press} }}", more)
-        jaws = body("lower", "lower", f"{{ label = 1, {held} }}", more)
-        jaws += body("upper", "upper", f"{{ label = 3, {press} }}", more)
-        tie = (f'[[contact]]\nkind = "tied"\nnonmortar = {{ body = "upper", label = {CUT} }}\n'
-               f'mortar = {{ body = "lower", label = {CUT} }}\nvariant = "interpolation"\n')
+        clip = jaw("clip", f"label = 1, {held}", f"label = 3, {press}", **sweep)
+        jaws = jaw("lower", f"label = 1, {held}", **sweep) + jaw("upper", f"label = 3, {press}", **sweep)
+        tie = contact(("upper", CUT), ("lower", CUT), kind="tied", variant="interpolation")
 
         def named(scene, low, up):
             return scene.replace("LOW", low).replace("UP", up).replace("LAW", law)
-        one, two = head + clip + contact + text, head + jaws + contact + tie + text
+        one, two = head + clip + between + text, head + jaws + between + tie + text
         return named(one, "clip", "clip"), named(two, "lower", "upper")
 
     def test_a_clip_is_two_jaws_tied_behind_the_slit(self):
@@ -93,12 +87,12 @@ class OneBody(InFolder):
         for name, options in (("plane stress", {}),
                               ("plane strain", {"head": 'plane = "strain"\n', "law": flows}),
                               ("degree 2", {"head": "degree = 2\n"}),
-                              ("friction", {"contact": "friction = 0.3"}),
-                              ("interpolation", {"contact": 'variant = "interpolation"'}),
+                              ("friction", {"how": "friction = 0.3"}),
+                              ("interpolation", {"how": 'variant = "interpolation"'}),
                               ("axis", {"head": 'plane = "axisymmetric"\n'}),
-                              ("finite sliding", {"contact": 'sliding = "finite"'}),
+                              ("finite sliding", {"how": 'sliding = "finite"'}),
                               ("space", {"space": True}),
-                              ("space, friction", {"space": True, "contact": "friction = 0.3"})):
+                              ("space, friction", {"space": True, "how": "friction = 0.3"})):
             with self.subTest(name):
                 one, two = self.scenes(**options)
                 found, expected = values(self.run_it(one)), values(self.run_it(two))
@@ -109,8 +103,8 @@ class OneBody(InFolder):
 
     def test_a_slit_that_is_tied_is_none(self):
         for coupling in ("interpolation", "weighted"):
-            one, _ = self.scenes(contact=f'kind = "tied"\nvariant = "{coupling}"')
-            peak = quantity("peak", f'largest_pressure = {{ body = "clip", label = {UPPER} }}')
+            one, _ = self.scenes(how=f'kind = "tied"\nvariant = "{coupling}"')
+            peak = quantity("peak", "largest_pressure", "clip", UPPER)
             one = one.replace(peak, "")
             found = values(self.run_it(one))
             # The column of the load: the whole of it goes through the slit and its back.

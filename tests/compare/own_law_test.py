@@ -2,6 +2,7 @@
 import math
 import unittest
 
+from scene_parts import body, box, contact, timed
 from support import InFolder, mortier, told
 
 MISES = "sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*s12^2)"
@@ -35,33 +36,14 @@ steps = 5
 """
 
 
-SOFTENING = """\
-check.allow = ["large-strain"]
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", cells = 2, lower = [0, 0], upper = [1, 1] }
-boundary = [ { label = 4, ux = 0 }, { label = 3, ty = "-1e5*t" } ]
-[body.material]
-young = 1e3
-poisson = 0.3
-law = "expression"
-rate11 = "flow*(s11-mean)"
-rate22 = "flow*(s22-mean)"
-rate12 = "flow*s12"
-parameters = { mean = "(s11+s22)/3", mises = "sqrt(s11^2+s22^2-s11*s22+3*s12^2)", flow = "0.1*tan(mises/20)" }
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", cells = 3, lower = [0, -1], upper = [1, 0] }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 4, ux = 0 }, { label = 1, uy = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 1
-scheme = "sdirk2"
-tolerance = 1e-2
-"""
+SOFTENING = ('check.allow = ["large-strain"]\n'
+             + body("upper", box([0, 0], [1, 1], 2),
+                    'young = 1e3, poisson = 0.3, law = "expression", rate11 = "flow*(s11-mean)", '
+                    'rate22 = "flow*(s22-mean)", rate12 = "flow*s12", parameters = { mean = "(s11+s22)/3", '
+                    'mises = "sqrt(s11^2+s22^2-s11*s22+3*s12^2)", flow = "0.1*tan(mises/20)" }',
+                    "label = 4, ux = 0", 'label = 3, ty = "-1e5*t"')
+             + body("lower", box([0, -1], [1, 0], 3), 1e3, "label = 4, ux = 0", "label = 1, uy = 0")
+             + contact(("upper", 1), ("lower", 3)) + timed(None, scheme="sdirk2", tolerance=1e-2))
 
 
 def along_deviator(factor, parameters, more=""):

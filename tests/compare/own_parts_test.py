@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, contact, quantity, timed
 from support import InFolder
 import results
 
@@ -22,24 +23,12 @@ Physical Surface("cylinder") = {1}; Physical Surface("block") = {2};
 Physical Curve("arc") = {1, 2}; Physical Curve("lid") = {3}; Physical Curve("axis") = {4, 5};
 Physical Curve("floor") = {6}; Physical Curve("surface") = {8, 9};
 """
-HERTZ = """
-plane = "strain"
-[[body]]
-name = "cylinder"
-mesh = { file = "hertz.geo", region = "cylinder" }
-material = { young = 210e3, poisson = 0.3 }
-boundary = [{ label = "lid", uy = "-0.12*t" }, { label = "axis", ux = 0 }]
-[[body]]
-name = "block"
-mesh = { file = "hertz.geo", region = "block" }
-material = { young = 70e3, poisson = 0.33 }
-boundary = [{ label = "floor", ux = 0, uy = 0 }, { label = "axis", ux = 0 }]
-[contact]
-sides = [{ body = "cylinder", label = "arc" }, { body = "block", label = "surface" }]
-[time]
-end = 1
-steps = 1
-"""
+HERTZ = ('plane = "strain"\n'
+         + body("cylinder", '{ file = "hertz.geo", region = "cylinder" }', 210e3,
+                'label = "lid", uy = "-0.12*t"', 'label = "axis", ux = 0')
+         + body("block", '{ file = "hertz.geo", region = "block" }', "young = 70e3, poisson = 0.33",
+                'label = "floor", ux = 0, uy = 0', 'label = "axis", ux = 0')
+         + contact(("cylinder", "arc"), ("block", "surface"), sides=True) + timed())
 FIT_GEO = """
 // A quarter of two rings, the inner one too large by 0.02.
 a = 10; b = 20; c = 35; delta = 0.02; h = 0.2;
@@ -55,27 +44,12 @@ Physical Surface("shaft") = {1}; Physical Surface("hub") = {2};
 Physical Curve("seat") = {2}; Physical Curve("bore") = {5}; Physical Curve("rim") = {6};
 Physical Curve("below") = {3, 7}; Physical Curve("left") = {4, 8};
 """
-FIT = """
-[[body]]
-name = "shaft"
-mesh = { file = "fit.geo", region = "shaft" }
-material = { young = 210e3, poisson = 0.3 }
-boundary = [{ label = "below", uy = 0 }, { label = "left", ux = 0 }]
-[[body]]
-name = "hub"
-mesh = { file = "fit.geo", region = "hub" }
-material = { young = 70e3, poisson = 0.33 }
-boundary = [{ label = "below", uy = 0 }, { label = "left", ux = 0 }]
-[contact]
-sides = [{ body = "shaft", label = "seat" }, { body = "hub", label = "bore" }]
-[[quantity]]
-name = "swell"
-displacement = { body = "hub", point = [35, 0] }
-component = "x"
-[time]
-end = 1
-steps = 1
-"""
+FIT = (body("shaft", '{ file = "fit.geo", region = "shaft" }', 210e3, 'label = "below", uy = 0',
+            'label = "left", ux = 0')
+       + body("hub", '{ file = "fit.geo", region = "hub" }', "young = 70e3, poisson = 0.33",
+              'label = "below", uy = 0', 'label = "left", ux = 0')
+       + contact(("shaft", "seat"), ("hub", "bore"), sides=True)
+       + quantity("swell", "displacement", "hub", component="x", point=[35, 0]) + timed())
 PIN_GEO = """
 // Half of a pin of radius 10 on the bottom of a hole that is larger by 0.02, in a large plate.
 R = 10; clearance = 0.02; far = 20*R; fine = 0.2;
@@ -94,24 +68,11 @@ Physical Surface("pin") = {1}; Physical Surface("plate") = {2};
 Physical Curve("shank") = {1, 2}; Physical Curve("hole") = {5, 6};
 Physical Curve("axis") = {3, 4, 7, 10}; Physical Curve("far") = {8, 9};
 """
-PIN = """
-[[body]]
-name = "pin"
-mesh = { file = "pin.geo", region = "pin" }
-material = { young = 210e3, poisson = 0.3 }
-force = { y = "-2.5*t" }
-boundary = [{ label = "axis", ux = 0 }]
-[[body]]
-name = "plate"
-mesh = { file = "pin.geo", region = "plate" }
-material = { young = 210e3, poisson = 0.3 }
-boundary = [{ label = "axis", ux = 0 }, { label = "far", ux = 0, uy = 0 }]
-[contact]
-sides = [{ body = "pin", label = "shank" }, { body = "plate", label = "hole" }]
-[time]
-end = 1
-steps = 1
-"""
+PIN = (body("pin", '{ file = "pin.geo", region = "pin" }', 210e3, 'label = "axis", ux = 0',
+            force={"y": "-2.5*t"})
+       + body("plate", '{ file = "pin.geo", region = "plate" }', 210e3, 'label = "axis", ux = 0',
+              'label = "far", ux = 0, uy = 0') + contact(("pin", "shank"), ("plate", "hole"), sides=True)
+       + timed())
 ASKED = 1e-2  # relative
 
 

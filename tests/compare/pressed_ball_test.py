@@ -1,42 +1,18 @@
 """A ball whose surface is held is pressed into a plastic body with hardening, in two large steps."""
 import unittest
 
+from scene_parts import body, contact, shape, timed
 from support import InFolder
 
-SCENE = """\
-plane = "axisymmetric"
-[[body]]
-name = "ball"
-mesh = { shape = "quarterdisc", radius = 0.6, core = 0.12, cells = 6, lowest = [0, 1] }
-material = { young = 2e9, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = "-0.01*t" } ]
-[[body]]
-name = "body"
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[body.mesh]
-shape = "rectangle"
-lower = [0, 0]
-upper = [0.5641895835477563, 1]
-cells = [12, 12]
-cut = "both"
-focus = [0, 1]
-grading = [20, 40]
-[body.material]
-young = 2e5
-poisson = 0.3
-law = "viscoplastic"
-yield_stress = 489.8979485566356
-viscosity = 0
-isotropic_hardening = 2331.002331002331
-[contact]
-nonmortar = { body = "body", label = 3 }
-mortar = { body = "ball", label = 1 }
-[time]
-end = 1
-steps = 2
-[check]
-allow = ["large-strain", "large-displacement", "stiffness-ratio"]
-"""
+SCENE = ('plane = "axisymmetric"\n'
+         + body("ball", shape("quarterdisc", radius=0.6, core=0.12, cells=6, lowest=[0, 1]), 2e9,
+                'label = 1, ux = 0, uy = "-0.01*t"')
+         + '[[body]]\nname = "body"\nboundary = [ { label = 1, ux = 0, uy = 0 } ]\n[body.mesh]\n'
+           'shape = "rectangle"\nlower = [0, 0]\nupper = [0.5641895835477563, 1]\ncells = [12, 12]\n'
+           'cut = "both"\nfocus = [0, 1]\ngrading = [20, 40]\n[body.material]\nyoung = 2e5\n'
+           'poisson = 0.3\nlaw = "viscoplastic"\nyield_stress = 489.8979485566356\nviscosity = 0\n'
+           "isotropic_hardening = 2331.002331002331\n" + contact(("body", 3), ("ball", 1)) + timed(2)
+         + '[check]\nallow = ["large-strain", "large-displacement", "stiffness-ratio"]\n')
 
 
 class PressedBall(InFolder):

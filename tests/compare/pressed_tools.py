@@ -15,8 +15,8 @@ import random
 import sys
 
 import numpy as np
-from contact_support import (HELD, body, command, contact, forces, outline_geo, polygon, rectangle, solve,
-                             time)
+from contact_support import HELD, command, forces, outline_geo, polygon, rectangle, solve
+from scene_parts import body, contact, timed
 
 OVERLAP = {"punch": 0.08, "tip": 0.2}  # in edges of the block
 HALF = 1.5  # of the width of the block
@@ -42,7 +42,7 @@ class Scene:
             self.steps = max(2, self.steps)
         self.labels = [1] * (len(self.points) - 3) + [2, 3, 4]
         block = body("b", rectangle((-HALF, -1), (HALF, 0), (self.columns, max(6, self.columns // 4))),
-                     [f"label = 1, {HELD}"])
+                     1000.0, f"label = 1, {HELD}")
         self.start = f'degree = {self.degree}\nplane = "strain"\n' + block
         self.end = contact(("b", 3), ("t", 1), variant=self.variant, friction=self.friction, sliding="finite")
 
@@ -82,11 +82,11 @@ class Scene:
 
     def tool(self):
         return (self.start + polygon("t", self.points, "\n".join(self.motion), self.labels) + self.end
-                + forces("reaction", "t") + time(self.steps))
+                + forces("reaction", "t") + timed(self.steps))
 
     def stiff(self):
-        upper = body("t", '{ file = "t.geo" }', [f"label = 3, {', '.join(self.motion)}"], 1e9)
-        return self.start + upper + self.end + time(self.steps)
+        upper = body("t", '{ file = "t.geo" }', 1e9, f"label = 3, {', '.join(self.motion)}")
+        return self.start + upper + self.end + timed(self.steps)
 
     def files(self):
         return {"t.geo": outline_geo(self.points, self.labels, 0.3)}

@@ -4,19 +4,13 @@ import unittest
 import meshio
 import numpy as np
 
+from scene_parts import body, contact, timed
 from scenes import HELD_AND_PRESSED
 from support import InFolder, set_option
 
-BLOCK = """degree = 2
-[[body]]
-name = "block"
-mesh = "block.mesh"
-material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 }, { label = 3, ty = "-3*t" } ]
-[time]
-end = 1
-steps = 6
-"""
+BLOCK = ("degree = 2\n"
+         + body("block", '"block.mesh"', "young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1",
+                "label = 1, uy = 0", "label = 4, ux = 0", 'label = 3, ty = "-3*t"') + timed(6))
 
 
 class Quadratic(InFolder):
@@ -45,26 +39,12 @@ class Quadratic(InFolder):
         self.assertNotIn("quadratic", self.mortier("check", "scene.toml", "--set", "degree=1").stdout)
 
 
-TWO_BLOCKS = """degree = 2
-[[body]]
-name = "upper"
-mesh = "upper.mesh"
-material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
-boundary = [ { label = 3, ux = "0.01*t", uy = "-0.05*t*(1 + x)*(2 - t)" } ]
-[[body]]
-name = "lower"
-mesh = "lower.mesh"
-material = { young = 30, poisson = 0.2, viscosity = 2, yield_stress = 0.7 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[contact]]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 1.5
-steps = 6
-[output]
-every = 1
-"""
+TWO_BLOCKS = ("degree = 2\n"
+              + body("upper", '"upper.mesh"', "young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1",
+                     'label = 3, ux = "0.01*t", uy = "-0.05*t*(1 + x)*(2 - t)"')
+              + body("lower", '"lower.mesh"', "young = 30, poisson = 0.2, viscosity = 2, yield_stress = 0.7",
+                     "label = 1, ux = 0, uy = 0") + contact(("upper", 1), ("lower", 3)) + timed(6, 1.5)
+              + "[output]\nevery = 1\n")
 
 
 class InContact(InFolder):

@@ -3,6 +3,7 @@ import re
 import unittest
 
 import quantity_scenes as scenes
+from scene_parts import body, box, quantity, timed
 from support import InFolder
 
 
@@ -32,12 +33,12 @@ class QuantityErrors(InFolder):
     def test_heat_between_the_points_of_the_stress_is_in_it(self):
         """A bar between walls: the force is E alpha times the mean temperature, that of points is another."""
         def heated(f):
-            text = scenes.body("bar", scenes.rectangle([0, 0], [2, 1], [4 * f, 2 * f]), scenes.STEEL.replace(
-                " }", ", expansion = 1e-3 }"), "{ label = 1, uy = 0 }", "{ label = 2, ux = 0 }",
-                "{ label = 4, ux = 0 }")
-            return (text + 'temperature = "t*x*(2 - x)"\n'
-                    + scenes.quantity("wall", "reaction", "bar", ", label = 2", "x")
-                    + scenes.quantity("top", "displacement", "bar", ", label = 3", "y") + scenes.STEP)
+            return (body("bar", box([0, 0], [2, 1], [4 * f, 2 * f]),
+                         "young = 1, poisson = 0.3, expansion = 1e-3", "label = 1, uy = 0",
+                         "label = 2, ux = 0", "label = 4, ux = 0",
+                         temperature="t*x*(2 - x)")
+                    + quantity("wall", "reaction", "bar", 2, "x")
+                    + quantity("top", "displacement", "bar", 3, "y") + timed())
 
         for name in ("wall", "top"):
             estimated, true, _ = self.of(heated)[name]

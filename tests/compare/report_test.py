@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 from report_support import Pages, choose, hovered, settled
+from scene_parts import body, contact, shape, timed
 from support import ROOT, mortier
 from views_support import solve, view
 import coding
@@ -13,39 +14,13 @@ import recovery
 import results
 import runs
 
-RING = """
-title = "A ring in a ring, closed"
-[[body]]
-name = "inner"
-mesh = "inner.mesh"
-material = {{ young = 100, poisson = 0.3 }}
-boundary = [ {{ label = 1, pressure = "1*t", ut = 0 }} ]
-[[body]]
-name = "outer"
-mesh = "outer.mesh"
-material = {{ young = 50, poisson = 0.2 }}
-boundary = [ {{ label = 2, un = 0, ut = 0 }} ]
-[[contact]]
-nonmortar = {{ body = "inner", label = 2 }}
-mortar = {{ body = "outer", label = 1 }}
-initial = "close"
-[time]
-end = 1
-steps = {steps}
-[output]
-every = 1
-"""
-COARSE = """
-degree = 2
-[[body]]
-name = "ring"
-mesh = { shape = "annulus", inner = 1, outer = 2, cells = [8, 1], span = "full" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, pressure = 1 }, { label = 2, un = 0, ut = 0 } ]
-[time]
-end = 1
-steps = 1
-"""
+RING = ('title = "A ring in a ring, closed"\n'
+        + body("inner", '"inner.mesh"', 100, 'label = 1, pressure = "1*t", ut = 0')
+        + body("outer", '"outer.mesh"', "young = 50, poisson = 0.2", "label = 2, un = 0, ut = 0")
+        + contact(("inner", 2), ("outer", 1), initial="close") + timed(2) + "[output]\nevery = 1\n")
+COARSE = ("degree = 2\n"
+          + body("ring", shape("annulus", inner=1, outer=2, cells=[8, 1], span="full"), 100,
+                 "label = 1, pressure = 1", "label = 2, un = 0, ut = 0") + timed())
 
 
 class Contents(Pages):
@@ -161,7 +136,7 @@ class Contents(Pages):
         for name, cells, inner, outer in (("inner", "40,4", 1, 1.5), ("outer", "56,4", 1.5, 2)):
             mortier("mesh", "annulus", "--cells", cells, "--inner", inner, "--outer", outer, "--span", "full",
                     f"{name}.mesh", cwd=self.folder)
-        (self.folder / "ring.toml").write_text(RING.format(steps=2))
+        (self.folder / "ring.toml").write_text(RING)
         done = mortier("run", "ring.toml", "--quiet", "--out", "ring", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.page("ring")

@@ -5,25 +5,17 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, timed
 from rings_support import SPHERE, OfRings, tube
 from support import InFolder
 import study_support
 
 # A solid cylinder between plates that spins: a force of r.
-SPIN = """\
-plane = "axisymmetric"
-[[body]]
-name = "cylinder"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = CELLS, cut = "both" }
-material = { young = 100, poisson = 0.3 }
-force.x = "x"
-boundary = [ { label = 1, uy = 0 }, { label = 3, uy = 0 } ]
-[time]
-end = 1
-steps = 1
-[check]
-allow = ["initial-load"]
-"""
+SPIN = ('plane = "axisymmetric"\n'
+        + body("cylinder",
+               '{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = CELLS, cut = "both" }', 100,
+               "label = 1, uy = 0", "label = 3, uy = 0", more='force.x = "x"\n') + timed()
+        + '[check]\nallow = ["initial-load"]\n')
 
 
 class EstimateAroundTheAxis(OfRings):

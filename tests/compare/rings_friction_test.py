@@ -4,59 +4,28 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from support import InFolder, value
 
 import results
 
 # Two cones on each other, the line between them from (0, 1) to (2, 1.5), under a stress of -1 along the axis.
 SLOPE = 0.25
-CONES = """\
-plane = "axisymmetric"
-[[body]]
-name = "upper"
-mesh = { shape = "quadrilateral", corners = [[0, 1], [2, 1.5], [2, 3], [0, 3]], cells = [5, 3] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 3, ty = "-t" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "quadrilateral", corners = [[0, 0], [2, 0], [2, 1.5], [0, 1]], cells = [7, 4] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, uy = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-friction = 0.26
-[time]
-end = 1
-steps = 1
-"""
+CONES = ('plane = "axisymmetric"\n'
+         + body("upper", shape("quadrilateral", corners=[[0, 1], [2, 1.5], [2, 3], [0, 3]], cells=[5, 3]),
+                100, 'label = 3, ty = "-t"')
+         + body("lower", shape("quadrilateral", corners=[[0, 0], [2, 0], [2, 1.5], [0, 1]], cells=[7, 4]),
+                100, "label = 1, uy = 0") + contact(("upper", 1), ("lower", 3), friction=0.26) + timed())
 
 # A sleeve that is pressed onto a shaft by a pressure of 1, then pushed along it.
-SLEEVE = """\
-plane = "axisymmetric"
-[[body]]
-name = "shaft"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 2], cells = [3, 8], cut = "both" }
-material = { young = 100, poisson = 0 }
-boundary = [ { label = 1, uy = 0 }, { label = 3, uy = 0 } ]
-[[body]]
-name = "sleeve"
-mesh = { shape = "rectangle", lower = [1, 0], upper = [2, 2], cells = [4, 6], cut = "both" }
-material = { young = 100, poisson = 0 }
-force.y = { time = [0, 1, 2], value = [0, 0, PUSH] }
-boundary = [ { label = 2, pressure = { time = [0, 1, 2], value = [0, 1, 1] } } ]
-[contact]
-nonmortar = { body = "sleeve", label = 4 }
-mortar = { body = "shaft", label = 2 }
-friction = 0.01
-[[quantity]]
-name = "along"
-contact_force = { body = "shaft", label = 2 }
-component = "y"
-[time]
-end = 2
-steps = 2
-"""
+SLEEVE = ('plane = "axisymmetric"\n'
+          + body("shaft", box([0, 0], [1, 2], [3, 8], cut="both"), "young = 100, poisson = 0",
+                 "label = 1, uy = 0", "label = 3, uy = 0")
+          + body("sleeve", box([1, 0], [2, 2], [4, 6], cut="both"), "young = 100, poisson = 0",
+                 "label = 2, pressure = { time = [0, 1, 2], value = [0, 1, 1] }",
+                 more="force.y = { time = [0, 1, 2], value = [0, 0, PUSH] }\n")
+          + contact(("sleeve", 4), ("shaft", 2), friction=0.01)
+          + quantity("along", "contact_force", "shaft", 2, "y") + timed(2, 2))
 
 # A block of one body, and cut in two at y = 1: nodes of both meshes are the same.
 PART = """\

@@ -1,6 +1,7 @@
 """What the tests of bodies of revolution share: a tube and a sphere, errors over whole rings."""
 import numpy as np
 
+from scene_parts import body, timed
 from support import InFolder
 
 import results
@@ -26,19 +27,11 @@ allow = ["initial-load"]
 """
 
 # A quarter of a hollow sphere: label 4 lies on the axis.
-SPHERE = """\
-plane = "axisymmetric"
-[[body]]
-name = "sphere"
-mesh = { shape = "annulus", inner = 1, outer = 2, span = "quarter", cells = [CELLS, CELLS], cut = "both" }
-material = { MATERIAL }
-boundary = [ { label = 3, uy = 0 }, { label = 1, pressure = 1 } ]
-[time]
-end = 1
-steps = 1
-[check]
-allow = ["initial-load"]
-"""
+SPHERE = ('plane = "axisymmetric"\n'
+          + body("sphere",
+                 '{ shape = "annulus", inner = 1, outer = 2, span = "quarter", cells = [CELLS, CELLS], '
+                 'cut = "both" }', "MATERIAL", "label = 3, uy = 0", "label = 1, pressure = 1") + timed()
+          + '[check]\nallow = ["initial-load"]\n')
 
 def tube(cells, body, sides, end=1, steps=1):
     return (TUBE.replace("CELLS", str(cells)).replace("BODY", body).replace("SIDES", sides)

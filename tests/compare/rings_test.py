@@ -5,31 +5,18 @@ import unittest
 import numpy as np
 
 import heat_test
+from scene_parts import body, box, quantity, timed
 from rings_support import INNER, OUTER, OfRings, tube
 from support import value
 
 # A bar that is pressed along the axis.
-BAR = """\
-plane = "axisymmetric"
-[[body]]
-name = "bar"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [2, 2], cut = "both" }
-material = { young = 100, poisson = 0.3, law = "viscoplastic", yield_stress = 1, LAW }
-boundary = [ { label = 1, uy = 0 }, { label = 3, ty = -3 } ]
-[[quantity]]
-name = "shortens"
-displacement = { body = "bar", point = [1, 1] }
-component = "y"
-[[quantity]]
-name = "widens"
-displacement = { body = "bar", point = [1, 1] }
-component = "x"
-[time]
-end = 1
-steps = 1
-[check]
-allow = ["initial-load"]
-"""
+BAR = ('plane = "axisymmetric"\n'
+       + body("bar", box([0, 0], [1, 1], [2, 2], cut="both"),
+              'young = 100, poisson = 0.3, law = "viscoplastic", yield_stress = 1, LAW', "label = 1, uy = 0",
+              "label = 3, ty = -3")
+       + quantity("shortens", "displacement", "bar", component="y", point=[1, 1])
+       + quantity("widens", "displacement", "bar", component="x", point=[1, 1]) + timed()
+       + '[check]\nallow = ["initial-load"]\n')
 
 
 class HotRings(OfRings):
@@ -43,7 +30,7 @@ class HotRings(OfRings):
             for law in ("", growing) if plane == "strain" else laws:
                 for scheme in ("time.scheme=backward-euler", "time.scheme=sdirk2", "time.tolerance=1e-3"):
                     with self.subTest(plane=plane, law=law, scheme=scheme):
-                        text = heat_test.BLOCK.replace("PLANE", plane).replace("BESIDE", "")
+                        text = heat_test.BLOCK.replace("PLANE", plane)
                         # In plane strain it is pressed across the plane: it shall not flow.
                         text = text.replace("poisson = 0.3", "poisson = 0.3" + law.replace(
                             "yield_stress = 1,", "yield_stress = 1e3," if plane == "strain" else

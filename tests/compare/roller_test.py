@@ -3,44 +3,21 @@ both degrees alike, and the free rotation is named."""
 import unittest
 
 from seeded.contact_faults import ROLLER
+from scene_parts import body, contact, quantity, shape, timed
 from support import InFolder, warned
 
 # The roller in a groove of 90 degrees, pressed down by its weight.
-IN_GROOVE = """\
-degree = DEGREE
-[[body]]
-name = "roller"
-mesh = { shape = "annulus", centre = [0, 1.4142135623730951], inner = 0.5, outer = 1, cells = [40, 4] }
-material = { young = 1e3, poisson = 0.3 }
-force = { y = "-LOAD*t" }
-[[body]]
-name = "left"
-mesh = { shape = "quadrilateral", corners = [[-2, 2], [-3, 1], [-1, -1], [0, 0]], cells = [6, 16] }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 2, ux = 0, uy = 0 } ]
-[[body]]
-name = "right"
-mesh = { shape = "quadrilateral", corners = [[2, 2], [0, 0], [1, -1], [3, 1]], cells = [16, 6] }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0, uy = 0 } ]
-[[contact]]
-nonmortar = { body = "left", label = 4 }
-mortar = { body = "roller", label = 2 }
-[[contact]]
-nonmortar = { body = "right", label = 1 }
-mortar = { body = "roller", label = 2 }
-[[quantity]]
-name = "sinks"
-displacement = { body = "roller", label = 1 }
-component = "y"
-[[quantity]]
-name = "force"
-contact_force = { body = "roller", label = 2 }
-component = "y"
-[time]
-end = 1
-steps = 1
-"""
+IN_GROOVE = ("degree = DEGREE\n"
+             + body("roller",
+                    shape("annulus", centre=[0, 1.4142135623730951], inner=0.5, outer=1, cells=[40, 4]), 1e3,
+                    force={"y": "-LOAD*t"})
+             + body("left",
+                    shape("quadrilateral", corners=[[-2, 2], [-3, 1], [-1, -1], [0, 0]], cells=[6, 16]), 1e3,
+                    "label = 2, ux = 0, uy = 0")
+             + body("right", shape("quadrilateral", corners=[[2, 2], [0, 0], [1, -1], [3, 1]], cells=[16, 6]),
+                    1e3, "label = 3, ux = 0, uy = 0") + contact(("left", 4), ("roller", 2))
+             + contact(("right", 1), ("roller", 2)) + quantity("sinks", "displacement", "roller", 1, "y")
+             + quantity("force", "contact_force", "roller", 2, "y") + timed())
 
 
 class Roller(InFolder):

@@ -1,29 +1,16 @@
 """Bodies that slide along each other: how far is measured, and a run ends where they slide off each other."""
 import unittest
 
+from scene_parts import body, box, timed
 from support import InFolder, warned
 
 # A block that is pressed onto a table as long as it, and pushed along it by half of that in ten steps.
-PUSHED = """\
-degree = DEGREE
-[[body]]
-name = "table"
-mesh = { shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = [5, 3] }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [FROM, 0], upper = [TO, 0.5], cells = [4, 2] }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = 3, ux = "0.5*t", uy = "-1e-2*t" } ]
-[contact]
-nonmortar = { body = "NONMORTAR", label = NEAR }
-mortar = { body = "MORTAR", label = FACING }
-VARIANT
-[time]
-end = 1
-steps = 10
-"""
+PUSHED = ("degree = DEGREE\n"
+          + body("table", box([0, -1], [1, 0], [5, 3]), 1e4, "label = 1, ux = 0, uy = 0")
+          + body("block", '{ shape = "rectangle", lower = [FROM, 0], upper = [TO, 0.5], cells = [4, 2] }',
+                 1e4, 'label = 3, ux = "0.5*t", uy = "-1e-2*t"')
+          + '[contact]\nnonmortar = { body = "NONMORTAR", label = NEAR }\n'
+            'mortar = { body = "MORTAR", label = FACING }\nVARIANT\n' + timed(10))
 
 
 class SlidingOff(InFolder):

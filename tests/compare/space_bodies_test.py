@@ -5,46 +5,21 @@ import unittest
 import meshio
 import numpy as np
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from space_support import E, HELD, ISOTROPIC, NU, InSpace, cube
 
 
 class Columns(InSpace):
     """Under a stress along the axis: the same in space and about an axis."""
-    RING = """\
-plane = "axisymmetric"
-[[body]]
-name = "ring"
-mesh = { shape = "rectangle", cells = 2 }
-material = { MATERIAL }
-boundary = [ { label = 1, uy = 0 }, { label = 3, ty = "-10*t" } ]
-[[quantity]]
-name = "top"
-displacement = { body = "ring", label = 3 }
-component = "y"
-[[quantity]]
-name = "stored"
-stored_energy = { body = "ring" }
-[[quantity]]
-name = "lost"
-dissipated_energy = { body = "ring" }
-[time]
-end = 1
-steps = 10
-"""
-    LOADED = """\
-boundary = [ { label = 1, uz = 0 }, { label = 4, ux = 0 }, { label = 5, uy = 0 },
-             { label = 3, tz = "-10*t" } ]
-[[quantity]]
-name = "top"
-displacement = { body = "cube", label = 3 }
-component = "z"
-[[quantity]]
-name = "stored"
-stored_energy = { body = "cube" }
-[[quantity]]
-name = "lost"
-dissipated_energy = { body = "cube" }
-"""
+    RING = ('plane = "axisymmetric"\n'
+            + body("ring", box([0, 0], [1, 1], 2), "MATERIAL", "label = 1, uy = 0",
+                   'label = 3, ty = "-10*t"') + quantity("top", "displacement", "ring", 3, "y")
+            + quantity("stored", "stored_energy", "ring") + quantity("lost", "dissipated_energy", "ring")
+            + timed(10))
+    LOADED = ("boundary = [ { label = 1, uz = 0 }, { label = 4, ux = 0 }, { label = 5, uy = 0 },\n"
+              '             { label = 3, tz = "-10*t" } ]\n'
+              + quantity("top", "displacement", "cube", 3, "z")
+              + quantity("stored", "stored_energy", "cube") + quantity("lost", "dissipated_energy", "cube"))
 
     def test_are_those_of_revolution(self):
         hardens = "yield_stress = 2, isotropic_hardening = 30"
@@ -92,35 +67,14 @@ dissipated_energy = { body = "cube" }
 
 
 class Gap(InSpace):
-    PAIR = """\
-dimension = 3
-degree = DEGREE
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
-material = { young = 100, poisson = 0 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", uz = 0 } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 3 }
-material = { young = 100, poisson = 0 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = "bottom" }
-mortar = { body = "lower", label = "top" }
-variant = "VARIANT"
-gap = GAP
-[[quantity]]
-name = "floor"
-reaction = { body = "lower", label = "bottom" }
-component = "z"
-[[quantity]]
-name = "pressure"
-largest_pressure = { body = "upper", label = "bottom" }
-[time]
-end = 1
-steps = 2
-"""
+    PAIR = ("dimension = 3\ndegree = DEGREE\n"
+            + body("upper", box([0, 0, 0], [1, 1, 1], 2), "young = 100, poisson = 0",
+                   'label = "left", ux = 0', 'label = "front", uy = 0', 'label = "top", uz = 0')
+            + body("lower", box([0, 0, -1], [1, 1, 0], 3), "young = 100, poisson = 0",
+                   'label = "left", ux = 0', 'label = "front", uy = 0', 'label = "bottom", uz = 0')
+            + contact(("upper", "bottom"), ("lower", "top"), variant="VARIANT", more="gap = GAP\n")
+            + quantity("floor", "reaction", "lower", "bottom", "z")
+            + quantity("pressure", "largest_pressure", "upper", "bottom") + timed(2))
     KINDS = (("weighted", 1), ("mortar", 1), ("interpolation", 1), ("weighted", 2))
 
     def press(self, variant, degree, gap, *settings):
@@ -173,30 +127,14 @@ class Round(InSpace):
 
     def test_a_ball_on_a_block_is_that_of_hertz(self):
         # Under an approach d the force is 4/3 E* sqrt(R) d^1.5; a quarter of it.
-        self.write("""\
-dimension = 3
-degree = 2
-[[body]]
-name = "ball"
-mesh = { shape = "ball", centre = [0, 0, 1], keep = ["x", "y", "-z"], cells = 6 }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", uz = "-0.05*t" } ]
-[[body]]
-name = "block"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 4 }
-material = { young = 1e4, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-nonmortar = { body = "ball", label = "round" }
-mortar = { body = "block", label = "top" }
-[[quantity]]
-name = "force"
-reaction = { body = "block", label = "bottom" }
-component = "z"
-[time]
-end = 1
-steps = 1
-""")
+        self.write("dimension = 3\ndegree = 2\n"
+                   + body("ball", shape("ball", centre=[0, 0, 1], keep=["x", "y", "-z"], cells=6), 1,
+                          'label = "left", ux = 0', 'label = "front", uy = 0',
+                          'label = "top", uz = "-0.05*t"')
+                   + body("block", box([0, 0, -1], [1, 1, 0], 4), 1e4, 'label = "left", ux = 0',
+                          'label = "front", uy = 0', 'label = "bottom", uz = 0')
+                   + contact(("ball", "round"), ("block", "top"))
+                   + quantity("force", "reaction", "block", "bottom", "z") + timed())
         values = self.run_scene()
         hertz = 4/3/(1 - 0.09)*0.05**1.5/4
         # The flat side of the half ball is rigid: an approach of its middle, stiffer than a half space.

@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, contact, quantity, timed
 from space_support import InSpace
 
 # A quarter of two tubes with the radii 1, 2, 3, of one mesh.
@@ -31,30 +32,14 @@ f() = Surface In BoundingBox{-e, -e, 0.4 - e, 4, 4, 1}; mid() -= f();
 Physical Surface("bore", 8) = bore(); Physical Surface("mid", 9) = mid();
 Mesh.MeshSizeMax = h; Mesh.MeshSizeMin = h;
 """
-TUBES_SCENE = """\
-dimension = 3
-degree = 2
-[[body]]
-name = "inner"
-mesh = { file = "INNER" }
-material = { young = 1e5, poisson = 0 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "start", uz = 0 },
-             { label = "end", uz = 0 }, { label = "bore", pressure = 1 } ]
-[[body]]
-name = "outer"
-mesh = { file = "OUTER" }
-material = { young = 1e5, poisson = 0 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "start", uz = 0 } ]
-[contact]
-nonmortar = { body = "inner", label = "mid" }
-mortar = { body = "outer", label = "mid" }
-[[quantity]]
-name = "peak"
-largest_pressure = { body = "inner", label = "mid" }
-[time]
-end = 1
-steps = 1
-"""
+TUBES_SCENE = ("dimension = 3\ndegree = 2\n"
+               + body("inner", '{ file = "INNER" }', "young = 1e5, poisson = 0", 'label = "left", ux = 0',
+                      'label = "front", uy = 0', 'label = "start", uz = 0', 'label = "end", uz = 0',
+                      'label = "bore", pressure = 1')
+               + body("outer", '{ file = "OUTER" }', "young = 1e5, poisson = 0", 'label = "left", ux = 0',
+                      'label = "front", uy = 0', 'label = "start", uz = 0')
+               + contact(("inner", "mid"), ("outer", "mid"))
+               + quantity("peak", "largest_pressure", "inner", "mid") + timed())
 
 # A quarter of a cylinder along y or, turned, along x; fine where it touches.
 CYLINDER = """\
@@ -74,32 +59,13 @@ Physical Surface("x", 4) = x(); Physical Surface("y", 5) = y();
 Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
 Field[1] = MathEval; Field[1].F = Sprintf("%g + %g*Sqrt(x^2 + y^2 + z^2)", f, h); Background Field = 1;
 """
-CROSSED_SCENE = """\
-dimension = 3
-degree = 2
-[[body]]
-name = "up"
-mesh = { file = "UP" }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "x", ux = 0 }, { label = "y", uy = 0 }, { label = "top", uz = -0.02 } ]
-[[body]]
-name = "lo"
-mesh = { file = "LO" }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "x", ux = 0 }, { label = "y", uy = 0 }, { label = "top", uz = 0.02 } ]
-[contact]
-sides = [ { body = "up", label = "arc" }, { body = "lo", label = "arc" } ]
-[[quantity]]
-name = "force"
-reaction = { body = "lo", label = "top" }
-component = "z"
-[[quantity]]
-name = "peak"
-largest_pressure = { body = "up", label = "arc" }
-[time]
-end = 1
-steps = 1
-"""
+CROSSED_SCENE = ("dimension = 3\ndegree = 2\n"
+                 + body("up", '{ file = "UP" }', 1, 'label = "x", ux = 0', 'label = "y", uy = 0',
+                        'label = "top", uz = -0.02')
+                 + body("lo", '{ file = "LO" }', 1, 'label = "x", ux = 0', 'label = "y", uy = 0',
+                        'label = "top", uz = 0.02') + contact(("up", "arc"), ("lo", "arc"), sides=True)
+                 + quantity("force", "reaction", "lo", "top", "z")
+                 + quantity("peak", "largest_pressure", "up", "arc") + timed())
 
 # A thin slice of a roller in a groove of 90 degrees, half of it.
 GROOVE = """\
@@ -122,30 +88,13 @@ Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
 Field[1] = MathEval; Background Field = 1;
 Field[1].F = Sprintf("%g + 0.4*Max(0, Sqrt((x + 7.0710678)^2 + (z - 7.0710678)^2) - 0.34)", f);
 """
-GROOVE_SCENE = """\
-dimension = 3
-[[body]]
-name = "roller"
-mesh = { file = "groove.geo", region = "roller" }
-material = { young = 210e3, poisson = 0.3 }
-boundary = [ { label = "upper x", ux = 0 }, { label = "upper y", uy = 0 } ]
-force = { z = -1.0610329539 }
-[[body]]
-name = "block"
-mesh = { file = "groove.geo", region = "block" }
-material = { young = 70e3, poisson = 0.33 }
-boundary = [ { label = "lower x", ux = 0 }, { label = "lower y", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-mortar = { body = "block", label = "flank" }
-nonmortar = { body = "roller", label = "round" }
-[[quantity]]
-name = "z"
-contact_force = { body = "roller", label = "round" }
-component = "z"
-[time]
-end = 1
-steps = 1
-"""
+GROOVE_SCENE = ("dimension = 3\n"
+                + body("roller", '{ file = "groove.geo", region = "roller" }', 210e3,
+                       'label = "upper x", ux = 0', 'label = "upper y", uy = 0', force={"z": -1.0610329539})
+                + body("block", '{ file = "groove.geo", region = "block" }', "young = 70e3, poisson = 0.33",
+                       'label = "lower x", ux = 0', 'label = "lower y", uy = 0', 'label = "bottom", uz = 0')
+                + contact(("roller", "round"), ("block", "flank"))
+                + quantity("z", "contact_force", "roller", "round", "z") + timed())
 
 
 def cylinder(across):

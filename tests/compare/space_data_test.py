@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 
+from scene_parts import body, box, quantity, timed
 from space_support import (AXES, CLAMPED, E, HELD, ISOTROPIC, MODULI, NU, ORTHOTROPIC, ROLLERS, InSpace,
                            compliance, cube, rotation, strain_of)
 
@@ -45,17 +46,8 @@ class InitialStress(InSpace):
         np.testing.assert_allclose(s, np.tile(row, (len(s), 1)), rtol=1e-10, atol=1e-10)
 
     def test_is_refused_in_the_plane(self):
-        self.write("""\
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", cells = 2 }
-material = { young = 1, poisson = 0.3 }
-initial_stress = { s13 = 1 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[time]
-end = 1
-steps = 1
-""")
+        self.write(body("plate", box([0, 0], [1, 1], 2), 1, "label = 1, ux = 0, uy = 0",
+                        initial_stress={"s13": 1}) + timed())
         said = self.mortier("run", "scene.toml", code=2).stderr
         self.assertIn("s13 = 1, expected it with dimension = 3 only", said)
 
@@ -160,39 +152,21 @@ class Axes(InSpace):
 
     def test_is_that_of_plane_strain_extruded(self):
         keys = ", ".join(f"{k} = {v}" for k, v in MODULI.items() if k not in ("shear13", "shear23"))
-        self.write(f"""\
-plane = "strain"
-[[body]]
-name = "plate"
-mesh = {{ shape = "rectangle", cells = 2 }}
-material = {{ elasticity = "orthotropic", {keys}, angle = 0.5 }}
-boundary = [ {{ label = 1, uy = 0 }}, {{ label = 3, uy = 0.1 }} ]
-point = {{ at = [0, 0], ux = 0 }}
-[[quantity]]
-name = "force"
-reaction = {{ body = "plate", label = 3 }}
-component = "y"
-[[quantity]]
-name = "right"
-displacement = {{ body = "plate", label = 2 }}
-component = "x"
-[time]
-end = 1
-steps = 1
-""")
+        self.write('plane = "strain"\n'
+                   + body("plate", box([0, 0], [1, 1], 2), f'elasticity = "orthotropic", {keys}, angle = 0.5',
+                          "label = 1, uy = 0", "label = 3, uy = 0.1", point={"at": [0, 0], "ux": 0})
+                   + quantity("force", "reaction", "plate", 3, "y")
+                   + quantity("right", "displacement", "plate", 2, "x") + timed())
         plane = self.run_scene()
-        space = self.run_scene(cube(f"{ORTHOTROPIC}, angle = 0.5", """\
-boundary = [ { label = 5, uy = 0 }, { label = 6, uy = 0.1 }, { label = 1, uz = 0 }, { label = 3, uz = 0 } ]
-point = { at = [0, 0, 0], ux = 0 }
-[[quantity]]
-name = "force"
-reaction = { body = "cube", label = 6 }
-component = "y"
-[[quantity]]
-name = "right"
-displacement = { body = "cube", label = 2 }
-component = "x"
-"""))
+        space = self.run_scene(cube(f"{ORTHOTROPIC}, angle = 0.5", ("boundary = [ { label = 5, uy = 0 }, "
+                                                                    "{ label = 6, uy = 0.1 }, "
+                                                                    "{ label = 1, uz = 0 }, { label = 3, "
+                                                                    "uz = 0 } ]\n"
+                                                                    "point = { at = [0, 0, 0], ux = 0 }\n"
+                                                                    + quantity("force", "reaction", "cube", 6,
+                                                                               "y")
+                                                                    + quantity("right", "displacement",
+                                                                               "cube", 2, "x"))))
         for name in ("force", "right"):
             self.assertAlmostEqual(space[name]/plane[name], 1, delta=1e-12)
 

@@ -5,51 +5,24 @@ import json
 import math
 import unittest
 
+from scene_parts import body, box, contact, timed
 from support import InFolder
 
-BLOCKS = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", lower = [0.2, 0.2, 0], upper = [0.8, 0.8, 0.3], cells = [4, 4, 3] }
-material = { young = 1000, poisson = 0.3 }
-UPPER
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, -0.3], upper = [1, 1, 0], cells = [6, 6, 2] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
-[[contact]]
-sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
-sliding = "allow"
-FRICTION
-[time]
-end = 1
-steps = 10
-"""
+BLOCKS = ("dimension = 3\n"
+          + body("upper", box([0.2, 0.2, 0], [0.8, 0.8, 0.3], [4, 4, 3]), 1000, more="UPPER\n")
+          + body("lower", box([0, 0, -0.3], [1, 1, 0], [6, 6, 2]), 1000,
+                 'label = "bottom", ux = 0, uy = 0, uz = 0')
+          + contact(("upper", "bottom"), ("lower", "top"), sides=True, sliding="allow", more="FRICTION\n")
+          + timed(10))
 WEIGHT = 0.72
 # A parabola that is pressed on half a block, then moved along the plane of symmetry.
-HALVES = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", lower = [-1, 0, 0], upper = [1, 1, 1], cells = [12, 6, 4] }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "front", uy = 0 },
-             { label = "top", uz = "-0.1*min(t,1)", ux = "0.02*max(t-1,0)" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [-1, 0, -1], upper = [1, 1, 0], cells = [10, 5, 4] }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "front", uy = 0 }, { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
-[[contact]]
-sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
-gap = "(x^2 + y^2)/2"
-friction = 0.3
-[time]
-end = 2
-steps = 8
-"""
+HALVES = ("dimension = 3\n"
+          + body("upper", box([-1, 0, 0], [1, 1, 1], [12, 6, 4]), 1, 'label = "front", uy = 0',
+                 'label = "top", uz = "-0.1*min(t,1)", ux = "0.02*max(t-1,0)"')
+          + body("lower", box([-1, 0, -1], [1, 1, 0], [10, 5, 4]), 1, 'label = "front", uy = 0',
+                 'label = "bottom", ux = 0, uy = 0, uz = 0')
+          + contact(("upper", "bottom"), ("lower", "top"), sides=True, gap="(x^2 + y^2)/2", friction=0.3)
+          + timed(8, 2))
 
 
 def dragged(angle, head="", friction="friction = 0.3"):

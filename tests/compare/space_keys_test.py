@@ -4,33 +4,17 @@ import hashlib
 import json
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed
 from support import InFolder, mortier, told
 
-SCENE = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, 1], cells = 2 }
-material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
-boundary = [ { label = 4, ux = 0 }, { label = 5, uy = 0 }, { label = 3, tz = "-2*t*(1 + 0.5*x)" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = [3, 2, 1] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 4, ux = 0 }, { label = 5, uy = 0 }, { label = 1, uz = 0 } ]
-[[contact]]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[[quantity]]
-name = "floor"
-reaction = { body = "lower", label = 1 }
-component = "z"
-[time]
-end = 1
-steps = 4
-[check]
-allow = ["flow-locks", "large-strain", "large-displacement"]
-"""
+SCENE = ("dimension = 3\n"
+         + body("upper", box([0, 0, 0], [1, 1, 1], 2),
+                "young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1", "label = 4, ux = 0",
+                "label = 5, uy = 0", 'label = 3, tz = "-2*t*(1 + 0.5*x)"')
+         + body("lower", box([0, 0, -1], [1, 1, 0], [3, 2, 1]), 100, "label = 4, ux = 0", "label = 5, uy = 0",
+                "label = 1, uz = 0") + contact(("upper", 1), ("lower", 3))
+         + quantity("floor", "reaction", "lower", 1, "z") + timed(4)
+         + '[check]\nallow = ["flow-locks", "large-strain", "large-displacement"]\n')
 ELASTIC = "body.upper.material={young=100, poisson=0.3}"
 UPPER = 'body.upper.mesh={shape="cuboid", lower=[0, 0, 0], upper=[1, 1, 1], cells=2}'
 ORTHOTROPIC = ("young1=100, young2=50, young3=80, poisson12=0.2, poisson13=0.1, poisson23=0.2, shear12=30, "
@@ -46,7 +30,7 @@ def material(text):
     return f"body.upper.material={{young=100, poisson=0.3, {text}}}"
 
 
-def quantity(text):
+def floor(text):
     return f"quantity=[{{name='floor', {text}}}]"
 
 
@@ -244,12 +228,12 @@ DIFFERENT = {
     "quantity.about": either("quantity.about", "[0, 0, 0]", "[0, 1, 2]", "quantity.component=moment_x"),
     "quantity.stored_energy.body": either("quantity", *(f"[{{name='q', stored_energy={{body='{body}'}}}}]"
                                                         for body in ("upper", "lower"))),
-    **{f"quantity.{kind}.body": refused('body = "no"', quantity(
+    **{f"quantity.{kind}.body": refused('body = "no"', floor(
         f"{kind}={{body='no', label=1}}, component='x'")) for kind in ("contact_force", "reaction")},
-    "quantity.mean_pressure.body": refused('body = "no"', quantity("mean_pressure={body='no', label=1}")),
-    **{f"quantity.{kind}.label": refused("label = 9", quantity(
+    "quantity.mean_pressure.body": refused('body = "no"', floor("mean_pressure={body='no', label=1}")),
+    **{f"quantity.{kind}.label": refused("label = 9", floor(
         f"{kind}={{body='upper', label=9}}, component='x'")) for kind in ("contact_force", "reaction")},
-    "quantity.mean_pressure.label": refused("label = 9", quantity("mean_pressure={body='upper', label=9}")),
+    "quantity.mean_pressure.label": refused("label = 9", floor("mean_pressure={body='upper', label=9}")),
     "quantity.reaction.point": either("quantity", *(
         f"[{{name='q', displacement={{body='upper', point=[1, {y}, 1]}}, component='x'}}]" for y in (0, 1))),
     "time.end": either("time.end", 1, 2), "time.steps": either("time.steps", 4, 2),
@@ -280,8 +264,8 @@ DIFFERENT = {
     "quantity.friction_work": either("quantity", *(f"[{{name='floor', {text}}}]" for text in (
         "friction_work={body='upper', label=1}", "work={body='upper'}")), "contact.friction=0.3"),
     "quantity.contact_length": refused("contact_area with dimension = 3",
-                                       quantity("contact_length={body='upper', label=1}")),
-    **{f"quantity.mean_pressure.{key}": refused(NOT_IN_SPACE, quantity(
+                                       floor("contact_length={body='upper', label=1}")),
+    **{f"quantity.mean_pressure.{key}": refused(NOT_IN_SPACE, floor(
         f"mean_pressure={{body='upper', label=1, {key}={value}}}"))
        for key, value in (("from", "[0, 0]"), ("to", "[0, 0]"), ("margin", 0.1))},
     "solver.method": refused("penalty-duality", "solver.method=penalty-duality"),

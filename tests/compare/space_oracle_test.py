@@ -4,6 +4,7 @@ import unittest
 from pathlib import Path
 
 import support
+from scene_parts import body, box, contact, timed
 from both import compare_runs
 
 CUBES = "scenes/cubes.toml"
@@ -11,55 +12,24 @@ ELASTIC = "body.material={young=100, poisson=0.3}"
 PERZYNA = "body.material={young=3e4, poisson=0.3, viscosity=10, yield_stress=1}"
 
 # Apart at first, and at one end at last; it overhangs at one side, and edges of it end inside triangles.
-BLOCK = """\
-dimension = 3
-[[body]]
-name = "block"
-mesh = { shape = "cuboid", lower = [0.3, 0, 0.02], upper = [1.1, 0.7, 0.9], cells = [3, 3, 2] }
-material = { young = 100, poisson = 0.3 }
-force = { z = "-z*t" }
-boundary = [ { label = "front", uy = 0 }, { label = "top", ux = 0, uz = "0.1*t*(x - 0.8)" },
-             { label = "back", pressure = "2*t" } ]
-[[body]]
-name = "floor"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = [4, 3, 3] }
-material = { young = 50, poisson = 0.2 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }, { label = "front", uy = 0 } ]
-[contact]
-nonmortar = { body = "block", label = "bottom" }
-mortar = { body = "floor", label = "top" }
-[time]
-end = 1
-steps = 4
-"""
+BLOCK = ("dimension = 3\n"
+         + body("block", box([0.3, 0, 0.02], [1.1, 0.7, 0.9], [3, 3, 2]), 100, 'label = "front", uy = 0',
+                'label = "top", ux = 0, uz = "0.1*t*(x - 0.8)"', 'label = "back", pressure = "2*t"',
+                force={"z": "-z*t"})
+         + body("floor", box([0, 0, -1], [1, 1, 0], [4, 3, 3]), "young = 50, poisson = 0.2",
+                'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "front", uy = 0')
+         + contact(("block", "bottom"), ("floor", "top")) + timed(4))
 # A cube in the corner of a floor and a wall: two contacts on one body.
-CORNER = """\
-dimension = 3
-[[body]]
-name = "cube"
-mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, 1], cells = 2 }
-material = { young = 100, poisson = 0.3, viscosity = 10, yield_stress = 1 }
-boundary = [ { label = "front", uy = 0 }, { label = "top", tz = "-3*t" }, { label = "right", tx = "-t" } ]
-[[body]]
-name = "floor"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 3 }
-material = { young = 50, poisson = 0.2 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
-[[body]]
-name = "wall"
-mesh = { shape = "cuboid", lower = [-1, 0, 0], upper = [0, 1, 1], cells = 3 }
-material = { young = 70, poisson = 0.2 }
-boundary = [ { label = "left", ux = 0, uy = 0, uz = 0 }, { label = "bottom", uz = 0 } ]
-[[contact]]
-nonmortar = { body = "cube", label = "bottom" }
-mortar = { body = "floor", label = "top" }
-[[contact]]
-nonmortar = { body = "wall", label = "right" }
-mortar = { body = "cube", label = "left" }
-[time]
-end = 1
-steps = 4
-"""
+CORNER = ("dimension = 3\n"
+          + body("cube", box([0, 0, 0], [1, 1, 1], 2),
+                 "young = 100, poisson = 0.3, viscosity = 10, yield_stress = 1", 'label = "front", uy = 0',
+                 'label = "top", tz = "-3*t"', 'label = "right", tx = "-t"')
+          + body("floor", box([0, 0, -1], [1, 1, 0], 3), "young = 50, poisson = 0.2",
+                 'label = "bottom", ux = 0, uy = 0, uz = 0')
+          + body("wall", box([-1, 0, 0], [0, 1, 1], 3), "young = 70, poisson = 0.2",
+                 'label = "left", ux = 0, uy = 0, uz = 0', 'label = "bottom", uz = 0')
+          + contact(("cube", "bottom"), ("floor", "top")) + contact(("wall", "right"), ("cube", "left"))
+          + timed(4))
 WITHIN = 1e-9
 
 

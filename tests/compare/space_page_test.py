@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from browser import Browser
+from scene_parts import body, box, contact, timed
 from support import InSharedFolder, mortier
 from report_support import choose, settled
 from views_support import view
@@ -21,25 +22,12 @@ from space_test import CUBES
 
 TILTED = CUBES.replace("-10*t", "-10*t*(1 + x)")
 SOFT = ["body.material={young=100, poisson=0.3}", "time.steps=2", "output.every=1"]
-MANY = """\
-dimension = 3
-[[body]]
-name = "tool"
-mesh = { shape = "cuboid", upper = [0.4, 0.4, 0.2], cells = [4, 4, 2] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", uz = -0.001 } ]
-[[body]]
-name = "block"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 31 }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-nonmortar = { body = "tool", label = "bottom" }
-mortar = { body = "block", label = "top" }
-[time]
-end = 1
-steps = 1
-"""
+MANY = ("dimension = 3\n"
+        + body("tool", box([0, 0, 0], [0.4, 0.4, 0.2], [4, 4, 2]), 100, 'label = "left", ux = 0',
+               'label = "front", uy = 0', 'label = "top", uz = -0.001')
+        + body("block", box([0, 0, -1], [1, 1, 0], 31), 100, 'label = "left", ux = 0',
+               'label = "front", uy = 0', 'label = "bottom", uz = 0')
+        + contact(("tool", "bottom"), ("block", "top")) + timed())
 DESK, PHONE = (900, 700), (390, 844)
 READ = "return [{...document.getElementById('read0').dataset}, document.getElementById('read0').textContent]"
 SEEN = "return document.getElementById('canvas0').dataset.view.split(',').map(Number)"

@@ -5,21 +5,20 @@ import math
 import unittest
 
 import space_quantity_scenes as scenes
+from scene_parts import LARGE_CHANGES, body, box, quantity, timed
 from scenes import TWO_BLOCKS
 from support import InFolder
 
 
 def moments(kind, body, label, about):
     """All forces and moments of a side."""
-    return "".join(f'[[quantity]]\nname = "{kind}_{body}_{component}"\n{kind} = {{ body = "{body}", label = '
-                   f'{label} }}\ncomponent = "{component}"\n'
-                   + (f"about = {about}\n" if component.startswith("moment") else "")
-                   for component in ("x", "y", "z", "moment_x", "moment_y", "moment_z"))
+    return "".join(quantity(f"{kind}_{body}_{each}", kind, body, label, each, about if "_" in each else None)
+                   for each in ("x", "y", "z", "moment_x", "moment_y", "moment_z"))
 
 
 class SpaceQuantities(InFolder):
     def run_scene(self, text, degree=1):
-        self.found = self.run_it(f"dimension = 3\ndegree = {degree}\n{text}{scenes.ALLOW}")["quantities"]
+        self.found = self.run_it(f"dimension = 3\ndegree = {degree}\n{text}{LARGE_CHANGES}")["quantities"]
         return {name: each["value"] for name, each in self.found.items()}
 
     def ratio(self, make, name, degree, finer=2):
@@ -35,16 +34,14 @@ class SpaceQuantities(InFolder):
     def test_forces_and_moments_are_those_of_statics(self):
         """A traction (0.1, -0.2, -1 - y) on the top of a cube on another one, which holds the foot."""
         about = [0.3, -0.2, 0.7]
-        text = (scenes.body("upper", scenes.cuboid([0, 0, 0], [1, 1, 1], [2, 3, 2]), scenes.STEEL,
-                            "{ label = 4, ux = 0 }", "{ label = 5, uy = 0 }",
-                            '{ label = 3, tx = 0.001, ty = -0.002, tz = "-0.01*(1 + y)" }')
-                + scenes.body("lower", scenes.cuboid([-1, -1, -1], [2, 2, 0], [4, 4, 2]), scenes.STEEL,
-                              "{ label = 1, ux = 0, uy = 0, uz = 0 }")
+        text = (body("upper", box([0, 0, 0], [1, 1, 1], [2, 3, 2]), scenes.STEEL, *scenes.CORNER,
+                     'label = 3, tx = 0.001, ty = -0.002, tz = "-0.01*(1 + y)"')
+                + body("lower", box([-1, -1, -1], [2, 2, 0], [4, 4, 2]), scenes.STEEL, scenes.held(1))
                 + scenes.touching("upper", 1, "lower", 3) + moments("contact_force", "upper", 1, about)
                 + moments("contact_force", "lower", 3, about) + moments("reaction", "lower", 1, about)
-                + scenes.quantity("below", "mean_pressure", "lower", ", label = 3")
+                + quantity("below", "mean_pressure", "lower", 3)
                 + "".join(moments("reaction", "upper", label, about).replace("reaction_", f"side{label}_")
-                          for label in (4, 5)) + scenes.STEP)
+                          for label in (4, 5)) + timed())
         for degree in (1, 2):
             with self.subTest(degree=degree):
                 values = self.run_scene(text, degree)

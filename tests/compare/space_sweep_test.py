@@ -5,9 +5,9 @@ import unittest
 
 import meshio
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from support import InFolder, values
 
-MATERIAL = "material = { young = 100, poisson = 0.3 }"
 GEO = """\
 SetFactory("OpenCASCADE");
 Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 1, 0}; Point(4) = {1, 1.6, 0};
@@ -18,18 +18,8 @@ Physical Curve("floor", 1) = {1}; Physical Curve("roof", 7) = {3}; Physical Surf
 """
 
 
-def body(mesh, boundary, head="dimension = 3", more=""):
-    return f"""\
-{head}
-[[body]]
-name = "part"
-mesh = {{ {mesh} }}
-{MATERIAL}
-boundary = [ {boundary} ]
-{more}[time]
-end = 1
-steps = 1
-"""
+def part(mesh, *boundary, head="dimension = 3", more=""):
+    return f"{head}\n" + body("part", "{ " + mesh + " }", 100, *boundary, more=more) + timed()
 
 
 class SpaceSweep(InFolder):
@@ -50,47 +40,45 @@ class SpaceSweep(InFolder):
                  "[1, 0, 0]")):
             for degree in (1, 2):
                 with self.subTest(mesh, degree=degree):
-                    along, ends = ("z", ("start", "end")) if "extrude" in mesh else ("y", ("1", "3"))
+                    along, ends = ("z", ("start", "end")) if "extrude" in mesh else ("y", (1, 3))
                     across = "y" if along == "z" else "z"
-                    self.run_it(body(
-                        mesh, f'{{ label = {json.dumps(ends[0]) if along == "z" else 1}, u{along} = 0 }}, '
-                              f'{{ label = {json.dumps(ends[1]) if along == "z" else 3}, t{along} = 3 }}',
-                        f"dimension = 3\ndegree = {degree}",
-                        f"[[body.point]]\nat = {first}\nux = 0\nu{across} = 0\n"
-                        f"[[body.point]]\nat = {second}\nu{across} = 0\n"))
+                    self.run_it(part(
+                        mesh, f"label = {json.dumps(ends[0])}, u{along} = 0",
+                        f"label = {json.dumps(ends[1])}, t{along} = 3",
+                        head=f"dimension = 3\ndegree = {degree}",
+                        more=f"[[body.point]]\nat = {first}\nux = 0\nu{across} = 0\n"
+                             f"[[body.point]]\nat = {second}\nu{across} = 0\n"))
                     for row in self.stress():  # xx, yy, zz, xy, yz, xz
                         for k, value in enumerate(row):
                             self.assertAlmostEqual(value, 3 if k == "xyz".index(along) else 0, delta=1e-11)
 
     def test_an_extruded_part_is_that_of_plane_strain(self):
         """Held at both ends: the finer the layers, the nearer to the plane mesh; one layer has diagonals."""
-        conditions = '{ label = 1, ux = 0, uy = 0 }, { label = 3, tx = "1", ty = "x" }'
-        quantity = ('[[quantity]]\nname = "top"\ndisplacement = { body = "part", label = 3 }\n'
-                    'component = "y"\n')
-        plane = self.values(body('shape = "rectangle", cells = 8, cut = "both"', conditions,
-                                 'plane = "strain"\ndegree = 2', quantity))["top"]
-        space = self.values(body('shape = "rectangle", cells = 4, cut = "both", extrude = 0.5, layers = 2',
-                                 conditions + ', { label = "start", uz = 0 }, { label = "end", uz = 0 }',
-                                 "dimension = 3\ndegree = 2", quantity))["top"]
+        conditions = "label = 1, ux = 0, uy = 0", 'label = 3, tx = "1", ty = "x"'
+        top = quantity("top", "displacement", "part", 3, "y")
+        plane = self.values(part('shape = "rectangle", cells = 8, cut = "both"', *conditions,
+                                 head='plane = "strain"\ndegree = 2', more=top))["top"]
+        space = self.values(part('shape = "rectangle", cells = 4, cut = "both", extrude = 0.5, layers = 2',
+                                 *conditions, 'label = "start", uz = 0', 'label = "end", uz = 0',
+                                 head="dimension = 3\ndegree = 2", more=top))["top"]
         self.assertAlmostEqual(space / plane, 1, delta=2e-2)
 
     def test_a_turned_part_is_that_of_revolution(self):
         """A thick ring under pressure inside; a quarter of it between planes of symmetry."""
         mesh = 'shape = "rectangle", lower = [1, 0], upper = [2, 0.5], cells = [6, 2]'
-        conditions = "{ label = 1, uy = 0 }, { label = 3, uy = 0 }, { label = 4, pressure = 5 }"
-        quantity = ('[[quantity]]\nname = "outside"\ndisplacement = { body = "part", point = POINT }\n'
-                    'component = "x"\n')
-        ring = self.values(body(mesh, conditions, 'plane = "axisymmetric"\ndegree = 2',
-                                quantity.replace("POINT", "[2, 0]")))["outside"]
+        conditions = "label = 1, uy = 0", "label = 3, uy = 0", "label = 4, pressure = 5"
+        ring = self.values(part(
+            mesh, *conditions, head='plane = "axisymmetric"\ndegree = 2',
+            more=quantity("outside", "displacement", "part", component="x", point=[2, 0])))["outside"]
         lame = 2 * 5 / 3 * (1 + 0.3) / 100 * (0.4 * 2 + 4 / 2) / 2
         self.assertAlmostEqual(ring / lame, 1, delta=1e-3)
         last = None
         for layers in (4, 8, 16):
-            part = self.values(body(
-                f'{mesh}, revolve = "pi/2", layers = {layers}',
-                conditions + ', { label = "start", uz = 0 }, { label = "end", ux = 0 }',
-                "dimension = 3\ndegree = 2", quantity.replace("POINT", "[2, 0, 0]")))["outside"]
-            error = abs(part / ring - 1)
+            quarter = self.values(part(
+                f'{mesh}, revolve = "pi/2", layers = {layers}', *conditions, 'label = "start", uz = 0',
+                'label = "end", ux = 0', head="dimension = 3\ndegree = 2",
+                more=quantity("outside", "displacement", "part", component="x", point=[2, 0, 0])))["outside"]
+            error = abs(quarter / ring - 1)
             if last is not None:
                 self.assertLess(error, 0.35 * last)  # of chords: second order
             last = error
@@ -98,50 +86,30 @@ class SpaceSweep(InFolder):
 
     def test_a_file_is_extruded_with_its_names(self):
         self.write(GEO, "cam.geo")
-        quantities = ('[[quantity]]\nname = "floor"\nreaction = { body = "part", label = "floor" }\n'
-                      'component = "y"\n')
         mesh = 'file = "cam.geo", size = 0.5, region = "cam", '
-        values = self.values(body(mesh + "extrude = 3, layers = 4",
-                                  '{ label = "floor", ux = 0, uy = 0, uz = 0 }, { label = "roof", ty = -2 }, '
-                                  '{ label = "end", tz = 0 }', more=quantities))
+        held = 'label = "floor", ux = 0, uy = 0, uz = 0'
+        values = self.values(part(mesh + "extrude = 3, layers = 4", held, 'label = "roof", ty = -2',
+                                  'label = "end", tz = 0',
+                                  more=quantity("floor", "reaction", "part", "floor", "y")))
         self.assertGreater(values["floor"], 2 * 3 * 2)  # the arc is longer than its width
         self.assertLess(values["floor"], 2 * 3 * 2.6)
         # Turned all around: no ends.
         around = mesh + 'revolve = "2*pi", layers = 12'
-        held = '{ label = "floor", ux = 0, uy = 0, uz = 0 }, { label = "roof", ty = -2 }'
-        self.assertEqual(self.run_it(body(around, held))["status"], "converged")
-        self.refuse(body(around, held.replace("roof", "end")), 'label = "end", expected one of')
+        self.assertEqual(self.run_it(part(around, held, 'label = "roof", ty = -2'))["status"], "converged")
+        self.refuse(part(around, held, 'label = "end", ty = -2'), 'label = "end", expected one of')
 
     def test_contact_of_an_extruded_and_a_turned_body(self):
         """A cone frustum that turns about y presses on an extruded block."""
-        self.write("""\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "quadrilateral", corners = [[0, 0], [0.5, 0], [1, 1], [0, 1]], cells = 3, revolve = "pi/2", \
-layers = 4 }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = "start", uz = 0 }, { label = "end", ux = 0 }, { label = 3, uy = -0.01 } ]
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = 4, extrude = 1, layers = 4 }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0, uz = 0 }, { label = 4, ux = 0 }, { label = "start", uz = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[[quantity]]
-name = "force"
-contact_force = { body = "lower", label = 3 }
-component = "y"
-[[quantity]]
-name = "floor"
-reaction = { body = "lower", label = 1 }
-component = "y"
-[time]
-end = 1
-steps = 1
-""")
+        self.write("dimension = 3\n"
+                   + body("upper",
+                          shape("quadrilateral", corners=[[0, 0], [0.5, 0], [1, 1], [0, 1]], cells=3,
+                                revolve="pi/2", layers=4), 100, 'label = "start", uz = 0',
+                          'label = "end", ux = 0', "label = 3, uy = -0.01")
+                   + body("lower", box([0, -1], [1, 0], 4, extrude=1, layers=4), 100,
+                          "label = 1, ux = 0, uy = 0, uz = 0", "label = 4, ux = 0",
+                          'label = "start", uz = 0') + contact(("upper", 1), ("lower", 3))
+                   + quantity("force", "contact_force", "lower", 3, "y")
+                   + quantity("floor", "reaction", "lower", 1, "y") + timed())
         said = self.mortier("check", "scene.toml").stdout
         self.assertIn("0 errors", said)
         values = self.values(self.read("scene.toml"))
@@ -165,8 +133,8 @@ steps = 1
                 (shape + ", lower = [-1, 0], revolve = 1, layers = 2", "expected x >= 0 beside revolve"),
                 ('shape = "cuboid", cells = 2, extrude = 1, layers = 1', "extrude = 1, expected of")):
             with self.subTest(mesh):
-                self.refuse(body(mesh, "{ label = 1, un = 0 }"), message)
-        self.refuse(body(shape + ", extrude = 1, layers = 1", "{ label = 1, un = 0 }", ""),
+                self.refuse(part(mesh, "label = 1, un = 0"), message)
+        self.refuse(part(shape + ", extrude = 1, layers = 1", "label = 1, un = 0", head=""),
                     "expected it with dimension = 3 only")
 
 

@@ -7,51 +7,25 @@ import unittest
 import meshio
 import numpy as np
 
+from scene_parts import body, box, contact, quantity, timed
 from support import PROGRAM, ROOT, InFolder, mortier, values
 from results import read_csv
 
 # The note's compression test of two cubes; the stress is (0, 0, -10 t) and flows from t = 0.1 on.
-CUBES = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
-material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-10*t" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 3 }
-material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = "bottom" }
-mortar = { body = "lower", label = "top" }
-[[quantity]]
-name = "top"
-displacement = { body = "upper", label = "top" }
-component = "z"
-[[quantity]]
-name = "corner"
-displacement = { body = "upper", point = [1, 1, 1] }
-component = "z"
-[[quantity]]
-name = "floor"
-reaction = { body = "lower", label = "bottom" }
-component = "z"
-[[quantity]]
-name = "pressed"
-contact_force = { body = "lower", label = "top" }
-component = "z"
-[[quantity]]
-name = "pressure"
-largest_pressure = { body = "upper", label = "bottom" }
-[[quantity]]
-name = "stored"
-stored_energy = { body = "upper" }
-[time]
-end = 1
-steps = 20
-"""
+CUBES = ("dimension = 3\n"
+         + body("upper", box([0, 0, 0], [1, 1, 1], 2),
+                "young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1", 'label = "left", ux = 0',
+                'label = "front", uy = 0', 'label = "top", tz = "-10*t"')
+         + body("lower", box([0, 0, -1], [1, 1, 0], 3),
+                "young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1", 'label = "left", ux = 0',
+                'label = "front", uy = 0', 'label = "bottom", uz = 0')
+         + contact(("upper", "bottom"), ("lower", "top"))
+         + quantity("top", "displacement", "upper", "top", "z")
+         + quantity("corner", "displacement", "upper", component="z", point=[1, 1, 1])
+         + quantity("floor", "reaction", "lower", "bottom", "z")
+         + quantity("pressed", "contact_force", "lower", "top", "z")
+         + quantity("pressure", "largest_pressure", "upper", "bottom")
+         + quantity("stored", "stored_energy", "upper") + timed(20))
 # By backward Euler: the rate along z is (2/3 s - 2/3)/(2 lambda) beyond the yield stress 1.
 TOP = -2 * sum(0.05 * 2 / 3 * (0.5 * n - 1) / 20 for n in range(3, 21))
 SOFT = ["body.material={young=100, poisson=0.3}"]
@@ -102,27 +76,11 @@ class Space(InFolder):
 
     def test_data_hold_z(self):
         # A body force that a varying traction balances: s33 = -(1 - z^2)/2 t along the column.
-        self.write("""\
-dimension = 3
-degree = 2
-[[body]]
-name = "column"
-mesh = { shape = "cuboid", upper = [1, 1, 1], cells = [1, 1, 6] }
-material = { young = 1, poisson = 0 }
-force = { z = "-z*t" }
-boundary = [ { label = "bottom", uz = 0 }, { label = "left", ux = 0 }, { label = "front", uy = 0 } ]
-[[quantity]]
-name = "floor"
-reaction = { body = "column", label = 1 }
-component = "z"
-[[quantity]]
-name = "top"
-displacement = { body = "column", label = 3 }
-component = "z"
-[time]
-end = 1
-steps = 1
-""")
+        self.write("dimension = 3\ndegree = 2\n"
+                   + body("column", box([0, 0, 0], [1, 1, 1], [1, 1, 6]), "young = 1, poisson = 0",
+                          'label = "bottom", uz = 0', 'label = "left", ux = 0', 'label = "front", uy = 0',
+                          force={"z": "-z*t"}) + quantity("floor", "reaction", "column", 1, "z")
+                   + quantity("top", "displacement", "column", 3, "z") + timed())
         _, values = self.run_scene()
         self.assertAlmostEqual(values["floor"], 0.5, delta=1e-12)
         self.assertAlmostEqual(values["top"], -1 / 3, delta=1e-12)
@@ -153,16 +111,8 @@ steps = 1
         self.write(CUBES.replace("dimension = 3\n", ""))
         said = self.mortier("run", "scene.toml", code=2).stderr
         self.assertIn("expected", said)
-        self.write("""\
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", cells = 2 }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = "-1" } ]
-[time]
-end = 1
-steps = 1
-""")
+        self.write(body("plate", box([0, 0], [1, 1], 2), 1, "label = 1, ux = 0, uy = 0",
+                        'label = 3, ty = "-1"') + timed())
         for setting, message in (("body.plate.boundary.3.tz=1", "tz = 1, expected it with dimension = 3"),
                                  ("body.plate.boundary.3.ty=z", "expected an expression in x, y, t"),
                                  ("body.plate.mesh.shape=cuboid", "dimension = 3"),
@@ -269,28 +219,13 @@ steps = 1
 
 
 # A column under a load that varies, on a wider block.
-ADAPTED = """\
-dimension = 3
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
-material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-t*(1+x)/100" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1.5, 1, 0], cells = [3, 2, 2] }
-material = { young = 3, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
-[contact]
-sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
-[[quantity]]
-name = "floor"
-reaction = { body = "lower", label = "bottom" }
-component = "z"
-[time]
-end = 1
-steps = 1
-"""
+ADAPTED = ("dimension = 3\n"
+           + body("upper", box([0, 0, 0], [1, 1, 1], 2), 1, 'label = "left", ux = 0',
+                  'label = "front", uy = 0', 'label = "top", tz = "-t*(1+x)/100"')
+           + body("lower", box([0, 0, -1], [1.5, 1, 0], [3, 2, 2]), 3, 'label = "left", ux = 0',
+                  'label = "front", uy = 0', 'label = "bottom", uz = 0')
+           + contact(("upper", "bottom"), ("lower", "top"), sides=True)
+           + quantity("floor", "reaction", "lower", "bottom", "z") + timed())
 
 
 class Accuracy(InFolder):

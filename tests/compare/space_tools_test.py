@@ -2,25 +2,14 @@
 import math
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed, tool
 from support import InFolder
 
-BLOCK = """\
-dimension = 3
-[[body]]
-name = "block"
-mesh = { shape = "cuboid", lower = [-1, -1, -1], upper = [1, 1, 0], cells = [6, 5, 3] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = "bottom", SUPPORT } ]
-[[contact]]
-sides = [ { body = "tool", label = LABEL }, { body = "block", label = "top" } ]
-REST
-[[tool]]
-name = "tool"
-MOTION
-[time]
-end = 1
-steps = 1
-"""
+BLOCK = ("dimension = 3\n"
+         + body("block", box([-1, -1, -1], [1, 1, 0], [6, 5, 3]), 1000, 'label = "bottom", SUPPORT')
+         + '[[contact]]\nsides = [ { body = "tool", label = LABEL }, { body = "block", label = "top" } ]\n'
+           "REST\n"
+         + tool("tool", more="MOTION\n") + timed())
 PLATE = 'mesh = { shape = "cuboid", lower = [-2, -2, 0], upper = [2, 2, 1], cells = [3, 4, 1] }\n'
 BALL = 'mesh = { shape = "ball", centre = [0.1, -0.05, 1.5], radius = 1.5, cells = 8, keep = ["-z"] }\n'
 ALL_HELD = "ux = 0, uy = 0, uz = 0"
@@ -43,32 +32,13 @@ Physical Volume(1) = {3}; Physical Surface("round") = {1};
 rest() = Surface{:}; rest() -= {1}; Physical Surface("rest") = rest();
 Mesh.MeshSizeMax = 0.25;
 """
-HALF_SPACE = """\
-dimension = 3
-degree = 2
-[[body]]
-name = "block"
-mesh = "block.geo"
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = "x", ux = 0 }, { label = "y", uy = 0 },
-             { label = "outer", ux = "x*(ACROSS)", uy = "y*(ACROSS)", uz = "DOWN" } ]
-[[contact]]
-sides = [ { body = "block", label = "top" }, { body = "tool", label = "LABEL" } ]
-[[tool]]
-name = "tool"
-mesh = MESH
-fz = FORCE
-[[quantity]]
-name = "depth"
-displacement = { body = "tool" }
-component = "z"
-[[quantity]]
-name = "peak"
-largest_pressure = { body = "block", label = "top" }
-[time]
-end = 1
-steps = 1
-"""
+HALF_SPACE = ("dimension = 3\ndegree = 2\n"
+              + body("block", '"block.geo"', 1000, 'label = "x", ux = 0', 'label = "y", uy = 0',
+                     'label = "outer", ux = "x*(ACROSS)", uy = "y*(ACROSS)", uz = "DOWN"')
+              + contact(("block", "top"), ("tool", "LABEL"), sides=True)
+              + tool("tool", more="mesh = MESH\nfz = FORCE\n")
+              + quantity("depth", "displacement", "tool", component="z")
+              + quantity("peak", "largest_pressure", "block", "top") + timed())
 
 
 def quantities(kind, *components, about=""):

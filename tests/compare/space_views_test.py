@@ -7,6 +7,7 @@ from unittest import mock
 
 import numpy as np
 
+from scene_parts import body, box, timed
 from support import PROGRAM, ROOT, InSharedFolder, mortier
 from views_support import view
 from surfaces import Buffer, Seen, Surface, camera
@@ -20,17 +21,9 @@ import three
 from space_test import CUBES
 
 SOFT = ["body.material={young=100, poisson=0.3}", "time.steps=2", "output.every=1"]
-ALONE = """\
-dimension = 3
-[[body]]
-name = "column"
-mesh = { shape = "cuboid", upper = [1, 1, 2], cells = [1, 1, 2] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }, { label = "top", tx = "t" } ]
-[time]
-end = 1
-steps = 1
-"""
+ALONE = ("dimension = 3\n"
+         + body("column", box([0, 0, 0], [1, 1, 2], [1, 1, 2]), 100,
+                'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "top", tx = "t"') + timed())
 
 
 class SpaceViews(InSharedFolder):

@@ -4,243 +4,78 @@ import json
 import math
 import unittest
 
+from scene_parts import body, box, contact, quantity, shape, tied, timed, tool
 from support import InFolder
 
-RINGS = """\
-plane = "strain"
-degree = DEGREE
-[[body]]
-name = "inner"
-mesh = { shape = "annulus", inner = 1, outer = 1.5, span = "quarter", cells = [CELLS] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 1, pressure = 10 }, { label = 3, uy = 0 }, { label = 4, ux = 0 } ]
-[[body]]
-name = "outer"
-mesh = { shape = "annulus", inner = 1.5, outer = 2, span = "quarter", cells = [OTHERS] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 3, uy = 0 }, { label = 4, ux = 0 } ]
-[[contact]]
-kind = "tied"
-VARIANT
-sides = [{ body = "inner", label = 2 }, { body = "outer", label = 1 }]
-[[quantity]]
-name = "outside"
-displacement = { body = "outer", point = [2, 0] }
-component = "x"
-[time]
-end = 1
-steps = 1
-"""
+RINGS = ('plane = "strain"\ndegree = DEGREE\n'
+         + body("inner", '{ shape = "annulus", inner = 1, outer = 1.5, span = "quarter", cells = [CELLS] }',
+                1000, "label = 1, pressure = 10", "label = 3, uy = 0", "label = 4, ux = 0")
+         + body("outer", '{ shape = "annulus", inner = 1.5, outer = 2, span = "quarter", cells = [OTHERS] }',
+                1000, "label = 3, uy = 0", "label = 4, ux = 0")
+         + tied(("inner", 2), ("outer", 1), more="VARIANT\n")
+         + quantity("outside", "displacement", "outer", component="x", point=[2, 0]) + timed())
 
 # A block on a plate, which a tool pushes and turns.
-HEAD = """\
-plane = "strain"
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [14, 7] }
-material = { young = 1000, poisson = 0.3, viscosity = 20, yield_stress = 0.5 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[tool]]
-name = "head"
-shape = "rectangle"
-lower = [0, 1]
-upper = [2, 1.5]
-at = [1, 1]
-moment = "-t"
-fx = "0.3*t"
-fy = "-0.5*t"
-[[contact]]
-kind = "tied"
-sides = [{ body = "block", label = 3 }, { body = "head", label = 1 }]
-[[quantity]]
-name = "moment"
-reaction = { body = "block", label = 1 }
-component = "moment"
-[[quantity]]
-name = "push"
-contact_force = { body = "block", label = 3 }
-component = "x"
-[[quantity]]
-name = "turn"
-displacement = { body = "head" }
-component = "rotation"
-[time]
-end = 1
-steps = 10
-"""
+HEAD = ('plane = "strain"\n'
+        + body("block", box([0, 0], [2, 1], [14, 7]),
+               "young = 1000, poisson = 0.3, viscosity = 20, yield_stress = 0.5",
+               "label = 1, ux = 0, uy = 0")
+        + tool("head", shape="rectangle", lower=[0, 1], upper=[2, 1.5], at=[1, 1], moment="-t", fx="0.3*t",
+               fy="-0.5*t") + tied(("block", 3), ("head", 1))
+        + quantity("moment", "reaction", "block", 1, "moment")
+        + quantity("push", "contact_force", "block", 3, "x")
+        + quantity("turn", "displacement", "head", component="rotation") + timed(10))
 
 # Two blocks, one on the other; CUT: as one, or in two that are tied.
-SPACE = """\
-dimension = 3
-degree = DEGREE
-[[body]]
-name = "lower"
-mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, TOP], cells = [4, 4, LAYERS] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }LOADED ]
-CUT
-[[quantity]]
-name = "corner"
-displacement = { body = "LAST", point = [1, 1, 2] }
-component = "x"
-[time]
-end = 1
-steps = 1
-"""
-UPPER = """\
-[[body]]
-name = "upper"
-mesh = { shape = "cuboid", lower = [0, 0, 1], upper = [1, 1, 2], cells = [5, 5, 5] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = "top", tx = 1 } ]
-[[contact]]
-kind = "tied"
-sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
-"""
+SPACE = ('dimension = 3\ndegree = DEGREE\n[[body]]\nname = "lower"\n'
+         'mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, TOP], cells = [4, 4, LAYERS] }\n'
+         "material = { young = 1000, poisson = 0.3 }\n"
+         'boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }LOADED ]\nCUT\n'
+         + quantity("corner", "displacement", "LAST", component="x", point=[1, 1, 2]) + timed())
+UPPER = (body("upper", box([0, 0, 1], [1, 1, 2], [5, 5, 5]), 1000, 'label = "top", tx = 1')
+         + tied(("upper", "bottom"), ("lower", "top")))
 
 
 # A soft layer on a plate under a punch: contact above, a tie below.
-LAYER = """\
-plane = "strain"
-[[body]]
-name = "punch"
-mesh = { shape = "rectangle", lower = [0.6, 0.2], upper = [1.4, 0.6], cells = [11, 6] }
-material = { young = 2e5, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0, ty = "-20*t" } ]
-[[body]]
-name = "layer"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 0.2], cells = [40, 4] }
-material = { young = 1e3, poisson = 0.4, viscosity = 50, yield_stress = 30 }
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", lower = [0, -0.5], upper = [2, 0], cells = [26, 7] }
-material = { young = 7e4, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[contact]]
-friction = 0.2
-nonmortar = { body = "layer", label = 3 }
-mortar = { body = "punch", label = 1 }
-[[contact]]
-kind = "tied"
-nonmortar = { body = "layer", label = 1 }
-mortar = { body = "plate", label = 3 }
-[time]
-end = 1
-steps = 4
-"""
+LAYER = ('plane = "strain"\n'
+         + body("punch", box([0.6, 0.2], [1.4, 0.6], [11, 6]), 2e5, 'label = 3, ux = 0, ty = "-20*t"')
+         + body("layer", box([0, 0], [2, 0.2], [40, 4]),
+                "young = 1e3, poisson = 0.4, viscosity = 50, yield_stress = 30")
+         + body("plate", box([0, -0.5], [2, 0], [26, 7]), 7e4, "label = 1, ux = 0, uy = 0")
+         + contact(("layer", 3), ("punch", 1), friction=0.2)
+         + contact(("layer", 1), ("plate", 3), kind="tied") + timed(4))
 
 
 # A slider, a body or a tool, slides far on a layer, which is tied to a plate.
-BODY = """\
-[[body]]
-name = "slider"
-mesh = { shape = "rectangle", lower = [0.4, 0.2], upper = [1, 0.5], cells = [7, 4] }
-material = { young = 2e5, poisson = 0.3 }
-boundary = [ { label = 3, ux = "0.6*t", uy = "-0.004*min(5*t, 1)" } ]
-"""
-TOOL = """\
-[[tool]]
-name = "slider"
-shape = "rectangle"
-lower = [0.4, 0.2]
-upper = [1, 0.5]
-ux = "0.6*t"
-uy = "-0.004*min(5*t, 1)"
-"""
-SLIDER = """\
-plane = "strain"
-PUSHED
-[[body]]
-name = "layer"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 0.2], cells = [40, 4] }
-material = { young = 1e3, poisson = 0.4 }
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", lower = [0, -0.5], upper = [2, 0], cells = [26, 7] }
-material = { young = 7e4, poisson = 0.3 }
-HELD
-[[contact]]
-friction = 0.2
-sliding = "finite"
-nonmortar = { body = "layer", label = 3 }
-mortar = { body = "slider", label = 1 }
-[[contact]]
-kind = "tied"
-nonmortar = { body = "layer", label = 1 }
-mortar = { body = "plate", label = 3 }
-SECOND
-[time]
-end = 1
-steps = 5
-"""
+BODY = body("slider", box([0.4, 0.2], [1, 0.5], [7, 4]), 2e5,
+            'label = 3, ux = "0.6*t", uy = "-0.004*min(5*t, 1)"')
+TOOL = tool("slider", shape="rectangle", lower=[0.4, 0.2], upper=[1, 0.5], ux="0.6*t",
+            uy="-0.004*min(5*t, 1)")
+SLIDER = ('plane = "strain"\nPUSHED\n'
+          + body("layer", box([0, 0], [2, 0.2], [40, 4]), "young = 1e3, poisson = 0.4")
+          + body("plate", box([0, -0.5], [2, 0], [26, 7]), 7e4, more="HELD\n")
+          + contact(("layer", 3), ("slider", 1), friction=0.2, sliding="finite")
+          + contact(("layer", 1), ("plate", 3), kind="tied", more="SECOND\n") + timed(5))
 BOTTOM = "boundary = [ { label = 1, ux = 0, uy = 0 } ]"
-BASE = f"""\
-[[body]]
-name = "base"
-mesh = {{ shape = "rectangle", lower = [0, -0.8], upper = [2, -0.5], cells = [17, 4] }}
-material = {{ young = 3e4, poisson = 0.2 }}
-{BOTTOM}
-"""
-BELOW = """\
-[[contact]]
-kind = "tied"
-nonmortar = { body = "base", label = 3 }
-mortar = { body = "plate", label = 1 }
-"""
+BASE = body("base", box([0, -0.8], [2, -0.5], [17, 4]), "young = 3e4, poisson = 0.2", more=f"{BOTTOM}\n")
+BELOW = contact(("base", 3), ("plate", 1), kind="tied")
 
 
 # Half a ring on a plate, tied at one foot, the other one pressed into the plate.
-ARCH = """\
-plane = "strain"
-[[body]]
-name = "arch"
-mesh = { shape = "annulus", inner = 1, outer = 2, span = "half", cells = [24, 4] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 4, uy = -0.3 } ]
-[[body]]
-name = "plate"
-mesh = { shape = "rectangle", lower = [-2, -1], upper = [2, 0], cells = [20, 6] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[contact]]
-kind = "tied"
-sides = [{ body = "arch", label = 3 }, { body = "plate", label = 3 }]
-[time]
-end = 1
-steps = 1
-"""
+ARCH = ('plane = "strain"\n'
+        + body("arch", shape("annulus", inner=1, outer=2, span="half", cells=[24, 4]), 1000,
+               "label = 4, uy = -0.3")
+        + body("plate", box([-2, -1], [2, 0], [20, 6]), 1000, "label = 1, ux = 0, uy = 0")
+        + tied(("arch", 3), ("plate", 3)) + timed())
 
 # A column on a wider base: the corners between them are reentrant.
-CORNERS = """\
-plane = "strain"
-[[body]]
-name = "column"
-mesh = { shape = "rectangle", lower = [0.5, GAP], upper = [1.5, 2], cells = [8, 16] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0.01 } ]
-[[body]]
-name = "base"
-mesh = { shape = "rectangle", lower = [0, -1], upper = [2, 0], cells = [22, 11] }
-material = { young = 1000, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[[contact]]
-kind = "tied"
-sides = [{ body = "column", label = 1 }, { body = "base", label = 3 }]
-[[quantity]]
-name = "above"
-contact_force = { body = "column", label = 1 }
-component = "moment"
-[[quantity]]
-name = "below"
-contact_force = { body = "base", label = 3 }
-component = "moment"
-[[quantity]]
-name = "peak"
-largest_mises = { body = "column" }
-[time]
-end = 1
-steps = 1
-"""
+CORNERS = ('plane = "strain"\n'
+           + body("column", '{ shape = "rectangle", lower = [0.5, GAP], upper = [1.5, 2], cells = [8, 16] }',
+                  1000, "label = 3, ux = 0.01")
+           + body("base", box([0, -1], [2, 0], [22, 11]), 1000, "label = 1, ux = 0, uy = 0")
+           + tied(("column", 1), ("base", 3)) + quantity("above", "contact_force", "column", 1, "moment")
+           + quantity("below", "contact_force", "base", 3, "moment")
+           + quantity("peak", "largest_mises", "column") + timed())
 
 
 class Ties(InFolder):

@@ -3,47 +3,20 @@
 import math
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed, tool
 from support import InFolder, set_option, value
 
 import results  # noqa: E402
 
-BLOCK = """
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", cells = [5, 4] }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } ]
-"""
-PLATE = """
-[[tool]]
-name = "plate"
-shape = "rectangle"
-lower = [-0.3, 1]
-upper = [1.4, 1.5]
-at = [0.25, 1]
-MOTION
-"""
-CONTACT = """
-[contact]
-sides = [ { body = "block", label = 3 }, { body = "plate", label = 1 } ]
-"""
-TIME = """
-[time]
-end = 1
-steps = 2
-"""
-
-
-def quantity(name, what, component=""):
-    return f'[[quantity]]\nname = "{name}"\n{what}\n' + (f'component = "{component}"\n' if component else "")
-
-
+BLOCK = body("block", box([0, 0], [1, 1], [5, 4]), 100, "label = 1, uy = 0", "label = 4, ux = 0")
+PLATE = tool("plate", shape="rectangle", lower=[-0.3, 1], upper=[1.4, 1.5], at=[0.25, 1], more="MOTION\n")
+CONTACT = contact(("block", 3), ("plate", 1), sides=True)
+TIME = timed(2)
 QUANTITIES = "".join([
-    *(quantity(f"reaction-{c}", 'reaction = { body = "plate" }', c) for c in ("x", "y", "moment")),
-    *(quantity(f"contact-{c}", 'contact_force = { body = "plate" }', c) for c in ("x", "y", "moment")),
-    *(quantity(f"moves-{c}", 'displacement = { body = "plate" }', c) for c in ("x", "y", "rotation")),
-    quantity("external", 'external_work = { body = "plate" }'),
-    quantity("stored", 'stored_energy = { body = "block" }')])
+    *(quantity(f"{name}-{c}", kind, "plate", component=c)
+      for name, kind, turn in (("reaction", "reaction", "moment"), ("contact", "contact_force", "moment"),
+                               ("moves", "displacement", "rotation")) for c in ("x", "y", turn)),
+    quantity("external", "external_work", "plate"), quantity("stored", "stored_energy", "block")])
 
 
 def pressed(motion, extra=""):
@@ -51,24 +24,12 @@ def pressed(motion, extra=""):
 
 
 # Half planes, fine around the origin.
-def half_plane(young, cells, grading, lower="[-80, -80]", upper="[80, 0]", more=""):
-    return f"""
-[[body]]
-name = "ground"
-material = {{ young = {young}, poisson = 0.3{more} }}
-boundary = [ {{ label = 1, ux = 0, uy = 0 }} ]
-mesh = {{ shape = "rectangle", lower = {lower}, upper = {upper}, cells = {cells}, cut = "both", \
-focus = [0, 0], grading = [{grading}, {grading}] }}
-"""
+def half_plane(young, cells, grading, lower=(-80, -80), upper=(80, 0), more=""):
+    return body("ground", box(lower, upper, cells, cut="both", focus=[0, 0], grading=[grading, grading]),
+                f"young = {young}, poisson = 0.3{more}", "label = 1, ux = 0, uy = 0")
 
 
-ON_GROUND = """
-[contact]
-sides = [ { body = "ground", label = 3 }, { body = "tool", label = 1 } ]
-[time]
-end = 1
-steps = 1
-"""
+ON_GROUND = contact(("ground", 3), ("tool", 1), sides=True) + timed()
 
 
 class Tools(InFolder):
@@ -162,7 +123,7 @@ class Tools(InFolder):
         """A rigid cylinder: largest pressure and half-width over those of Hertz's theory."""
         tool = '[[tool]]\nname = "tool"\nshape = "disc"\ncentre = [0, 50]\nradius = 50\nfy = "-8000*t"\n'
         text = 'plane = "strain"\n' + half_plane(70000, [100, 60], 60) + tool + ON_GROUND
-        _, run = self.solve(text + quantity("y", 'displacement = { body = "tool" }', "y"))
+        _, run = self.solve(text + quantity("y", "displacement", "tool", component="y"))
         modulus = 70000 / (1 - 0.09)
         half_width = math.sqrt(4 * 8000 * 50 / (math.pi * modulus))
         peak = 2 * 8000 / (math.pi * half_width)
@@ -176,7 +137,7 @@ class Tools(InFolder):
     def test_flat_punch(self):
         tool = ('[[tool]]\nname = "tool"\nshape = "polygon"\npoints = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
                 'fy = "-0.5*t"\n')
-        ground = half_plane(100, [80, 60], 200, "[0, -40]", "[40, 0]")
+        ground = half_plane(100, [80, 60], 200, [0, -40], [40, 0])
         ground = ground.replace("focus = [0, 0]", "focus = [1, 0]")
         ground = ground.replace("uy = 0 } ]", "uy = 0 }, { label = 4, ux = 0 } ]")
         _, run = self.solve('plane = "strain"\n' + ground + tool + ON_GROUND, "contact.variant=weighted")
@@ -188,14 +149,14 @@ class Tools(InFolder):
     def test_prandtl(self):
         """A flat punch on ideally plastic ground: the mean pressure tends to (2 + pi) times the shear yield
         stress."""
-        ground = half_plane(1e5, [40, 32], 4, "[0, -4]", "[5, 0]",
+        ground = half_plane(1e5, [40, 32], 4, [0, -4], [5, 0],
                             ', law = "viscoplastic", yield_stress = 1, viscosity = 0')
         ground = ground.replace("focus = [0, 0]", "focus = [1, 0]")
         ground = ground.replace("uy = 0 } ]", "uy = 0 }, { label = 4, ux = 0 }, { label = 2, ux = 0 } ]")
         tool = ('[[tool]]\nname = "tool"\nshape = "polygon"\npoints = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
                 'uy = "-3e-4*t"\n')
         text = 'plane = "strain"\n' + ground + tool + ON_GROUND.replace("steps = 1", "steps = 20")
-        summary, _ = self.solve(text + quantity("mean", 'reaction = { body = "tool" }', "y"))
+        summary, _ = self.solve(text + quantity("mean", "reaction", "tool", component="y"))
         mean = -value(summary, "mean") / ((2 + math.pi) / math.sqrt(3))
         self.assertGreater(mean, 1)  # what displacements are left to find needs more
         self.assertLess(mean, 1.03)
@@ -207,7 +168,7 @@ class Tools(InFolder):
         for shape in ('mesh = "disc.mesh"', 'shape = "disc"\ncentre = [0, 50]\nradius = 50'):
             tool = f'[[tool]]\nname = "tool"\n{shape}\nuy = "-0.2*t"\n'
             summary, _ = self.solve('plane = "strain"\n' + half_plane(70000, [64, 40], 12) + tool + ON_GROUND
-                                    + quantity("press", 'reaction = { body = "tool" }', "y"))
+                                    + quantity("press", "reaction", "tool", component="y"))
             force[shape[:4]] = value(summary, "press")
         self.assertAlmostEqual(force["mesh"] / force["shap"], 1, delta=1e-6)
 
@@ -215,13 +176,13 @@ class Tools(InFolder):
         """Sneddon: the force of a radius of contact, or of a half-width."""
         modulus = 100 / (1 - 0.09)
         for shape, plane, lower, points in (
-                ("cone", "axisymmetric", "[0, -30]", "[[0, 0], [10, 1], [0, 1]]"),
-                ("wedge", "strain", "[-30, -30]", "[[0, 0], [10, 1], [-10, 1]]\nlabels = [1, 2, 1]")):
+                ("cone", "axisymmetric", [0, -30], "[[0, 0], [10, 1], [0, 1]]"),
+                ("wedge", "strain", [-30, -30], "[[0, 0], [10, 1], [-10, 1]]\nlabels = [1, 2, 1]")):
             with self.subTest(shape):
                 force = (math.pi / 20 if shape == "cone" else 0.1) * modulus  # of a radius, a half-width 1
                 tool = (f'[[tool]]\nname = "tool"\nshape = "polygon"\npoints = {points}\n'
                         f'fy = "{-force!r}*t"\n')
-                ground = half_plane(100, [60, 50], 60, lower, "[30, 0]")
+                ground = half_plane(100, [60, 50], 60, lower, [30, 0])
                 ground = ground.replace("ux = 0, ", "") if shape == "cone" else ground
                 _, run = self.solve(f'plane = "{plane}"\n' + ground + tool + ON_GROUND)
                 x, p = run.contact.position[:, 0], run.contact.pressure
@@ -231,12 +192,12 @@ class Tools(InFolder):
                 self.assertLess(abs(p[inside] / exact - 1).max(), 0.04)
 
     def test_full_slip(self):
-        text = (half_plane(100, [40, 10], 1, "[0, -1]", "[4, 0]")
+        text = (half_plane(100, [40, 10], 1, [0, -1], [4, 0])
                 + '[[tool]]\nname = "tool"\nshape = "disc"\ncentre = [2, 2]\nradius = 2\n'
                 'fy = "-min(t, 1)"\nux = "0.05*max(t - 1, 0)"\n'
                 + ON_GROUND.replace("[time]\nend = 1\nsteps = 1",
                                     "friction = 0.3\n[time]\nend = 2\nsteps = 2")
-                + "".join(quantity(c, 'contact_force = { body = "tool" }', c) for c in ("x", "y")))
+                + "".join(quantity(c, "contact_force", "tool", component=c) for c in ("x", "y")))
         summary, _ = self.solve(text)
         fx, fy = value(summary, "x"), value(summary, "y")
         self.assertAlmostEqual(fx / fy, -0.3, delta=1e-10)
@@ -252,7 +213,7 @@ class Tools(InFolder):
                       f'shape = "spline"\npoints = {points}'):
             tool = f'[[tool]]\nname = "tool"\n{shape}\nuy = "-0.2*t"\n'
             summary, _ = self.solve('plane = "strain"\n' + half_plane(70000, [64, 40], 12) + tool + ON_GROUND
-                                    + quantity("press", 'reaction = { body = "tool" }', "y"))
+                                    + quantity("press", "reaction", "tool", component="y"))
             force[shape[9:13]] = value(summary, "press")
         self.assertAlmostEqual(force["disc"] / force["spli"], 1, delta=2e-3)
 
@@ -262,7 +223,7 @@ class Tools(InFolder):
                                                                                       ("right", 0.7)))
         contacts = "".join(f'[[contact]]\nsides = [{{ body = "block", label = 3 }}, '
                            f'{{ body = "{name}", label = 1 }}]\n' for name in ("left", "right"))
-        forces = "".join(quantity(name, f'reaction = {{ body = "{name}" }}', "y")
+        forces = "".join(quantity(name, "reaction", name, component="y")
                          for name in ("left", "right"))
         block = BLOCK.replace("[5, 4]", '[20, 8], cut = "both"').replace("label = 4,", "label = 1,")
         summary, _ = self.solve(block + tools + contacts + forces + TIME)
@@ -301,36 +262,36 @@ class Tools(InFolder):
         self.mortier("freefem", "scene.toml", "script.edp")
         self.assertIn("freeTool(2, 0.25, 1, 0, 0., 1, -1.*t, 1, -0.3*t);", self.read("script.edp"))
         self.write(text.replace(CONTACT, CONTACT + 'sliding = "finite"\n'))
-        self.reject("scene.toml:15: tool plate: a tool that turns beside sliding", "freefem", "scene.toml",
+        self.reject("scene.toml:13: tool plate: a tool that turns beside sliding", "freefem", "scene.toml",
                     "script.edp")
 
     def test_faults(self):
         good = pressed('uy = "-0.01*t"')
         for old, new, message in (
-                ('uy = "-0.01*t"', 'uy = 0\nfy = 1', "scene.toml:15: tool plate: fy = 1, expected either it"),
+                ('uy = "-0.01*t"', 'uy = 0\nfy = 1', "scene.toml:13: tool plate: fy = 1, expected either it"),
                 ('uy = "-0.01*t"', 'uy = "x*t"',
-                 'scene.toml:14: tool plate: uy = "x*t", expected a function of t alone'),
-                ('uy = "-0.01*t"', "radius = 2", "scene.toml:14: tool plate: radius"),
-                ("upper = [1.4, 1.5]", "upper = [1.4, 0.5]", "scene.toml:12: tool plate: upper"),
-                ('shape = "rectangle"\nlower', 'shape = "ball"\nlower', "scene.toml:10: tool plate: shape"),
+                 'scene.toml:12: tool plate: uy = "x*t", expected a function of t alone'),
+                ('uy = "-0.01*t"', "radius = 2", "scene.toml:12: tool plate: radius"),
+                ("upper = [1.4, 1.5]", "upper = [1.4, 0.5]", "scene.toml:10: tool plate: upper"),
+                ('shape = "rectangle"\nlower', 'shape = "ball"\nlower', "scene.toml:8: tool plate: shape"),
                 ('shape = "rectangle"\nlower = [-0.3, 1]\nupper = [1.4, 1.5]',
                  'shape = "polygon"\npoints = [[0, 1], [0, 2], [1, 1]]',
-                 "scene.toml:10: tool plate: shape: runs clockwise"),
+                 "scene.toml:8: tool plate: shape: runs clockwise"),
                 ('sides = [ { body = "block", label = 3 }, { body = "plate", label = 1 } ]',
                  'nonmortar = { body = "plate", label = 1 }\nmortar = { body = "block", label = 3 }',
-                 "scene.toml:17: contact: a tool as the nonmortar side"),
-                (CONTACT, "", "scene.toml:8: tool plate: in no contact"),
-                ('name = "plate"', 'name = "block"', "scene.toml:8: tool block: name"),
+                 "scene.toml:14: contact: a tool as the nonmortar side"),
+                (CONTACT, "", "scene.toml:6: tool plate: in no contact"),
+                ('name = "plate"', 'name = "block"', "scene.toml:6: tool block: name"),
                 (BLOCK, "", "scene.toml:1: body is missing"),
-                (TIME, TIME + "[accuracy]\nbound = true\n", "scene.toml:8: tool plate: a tool, expected"),
-                (TIME, TIME + '[solver]\nmethod = "penalty-duality"\n', "scene.toml:8: tool plate: a tool"),
+                (TIME, TIME + "[accuracy]\nbound = true\n", "scene.toml:6: tool plate: a tool, expected"),
+                (TIME, TIME + '[solver]\nmethod = "penalty-duality"\n', "scene.toml:6: tool plate: a tool"),
                 ('stored_energy = { body = "block" }', 'stored_energy = { body = "plate" }',
-                 "scene.toml:59: quantity stored"),
+                 "scene.toml:56: quantity stored"),
                 ('reaction = { body = "plate" }', 'reaction = { body = "plate", label = 1 }',
-                 "scene.toml:20: quantity reaction-x"),
-                (CONTACT, CONTACT + "swap = true\n", "scene.toml:18: contact: swap = true, expected it only"),
+                 "scene.toml:17: quantity reaction-x"),
+                (CONTACT, CONTACT + "swap = true\n", "scene.toml:15: contact: swap = true, expected it only"),
                 ('uy = "-0.01*t"', "moment = 1\nrotation = 1",
-                 "scene.toml:14: tool plate: moment = 1, expected")):
+                 "scene.toml:12: tool plate: moment = 1, expected")):
             with self.subTest(new):
                 self.assertIn(old, good)
                 self.write(good.replace(old, new, 1))

@@ -3,33 +3,20 @@ import json
 import math
 import unittest
 
+from scene_parts import body, contact, quantity, shape, tool
+from scene_parts import timed as end_after
 from support import InFolder
 
 import results  # noqa: E402
 
-BLOCK = """\
-plane = "strain"
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [LEFT, -1], upper = [RIGHT, 0], cells = [CELLS, 12], cut = "both" }
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-"""
-DISC = """\
-[[tool]]
-name = "tool"
-shape = "disc"
-centre = [0, 2]
-radius = 2
-"""
-CONTACT = """\
-[contact]
-sides = [ { body = "block", label = 3 }, { body = "tool" } ]
-variant = "weighted"
-sliding = "finite"
-"""
+BLOCK = ('plane = "strain"\n'
+         + body("block",
+                '{ shape = "rectangle", lower = [LEFT, -1], upper = [RIGHT, 0], cells = [CELLS, 12], '
+                'cut = "both" }', 1e3, "label = 1, ux = 0, uy = 0"))
+DISC = tool("tool", shape="disc", centre=[0, 2], radius=2)
+CONTACT = contact(("block", 3), ("tool",), sides=True, variant="weighted", sliding="finite")
 ON_PLATE = CONTACT.replace('{ body = "tool" }', '{ body = "tool", label = 1 }')
-QUANTITIES = "".join(f'[[quantity]]\nname = "{name}-{c}"\n{name} = {{ body = "tool" }}\ncomponent = "{c}"\n'
+QUANTITIES = "".join(quantity(f"{name}-{c}", name, "tool", component=c)
                      for name in ("reaction", "contact_force", "displacement")
                      for c in ("x", "y", "rotation" if name == "displacement" else "moment"))
 # A block that is inclined by INCLINED, and a plate above it, upright as drawn.
@@ -39,28 +26,16 @@ INCLINED = math.radians(30)
 def inclined(angle, cells):
     def corner(x, y):
         return [x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)]
-    return f"""\
-[[body]]
-name = "block"
-mesh = {{ shape = "quadrilateral", corners = {[corner(*x) for x in ((-1, -1), (1, -1), (1, 0), (-1, 0))]}, \
-cells = {cells} }}
-material = {{ young = 1e3, poisson = 0 }}
-boundary = [ {{ label = 1, ux = 0, uy = 0 }} ]
-"""
+    return body("block",
+                shape("quadrilateral", corners=[corner(*x) for x in ((-1, -1), (1, -1), (1, 0), (-1, 0))],
+                      cells=cells), "young = 1e3, poisson = 0", "label = 1, ux = 0, uy = 0")
 
 
-PLATE = """\
-[[tool]]
-name = "tool"
-shape = "rectangle"
-lower = [-1.6, 3]
-upper = [1.6, 4]
-at = [0, 3]
-"""
+PLATE = tool("tool", shape="rectangle", lower=[-1.6, 3], upper=[1.6, 4], at=[0, 3])
 
 
 def timed(steps):
-    return f"[time]\nend = 1\nsteps = {steps}\n[output]\nevery = 1\n"
+    return end_after(steps) + "[output]\nevery = 1\n"
 
 
 class TurningTools(InFolder):
@@ -182,9 +157,8 @@ class TurningTools(InFolder):
         other = BLOCK.replace("block", "other").replace("LEFT", "2")
         other = other.replace("RIGHT", "3").replace("CELLS", "4")
         other = other[other.index("[[body]]"):]
-        contact = CONTACT.replace("[contact]", "[[contact]]")
-        self.write(self.block() + other + DISC + 'rotation = "t"\n' + contact
-                   + contact.replace("block", "other").replace('sliding = "finite"\n', "") + timed(1))
+        self.write(self.block() + other + DISC + 'rotation = "t"\n' + CONTACT
+                   + CONTACT.replace("block", "other").replace('sliding = "finite"\n', "") + timed(1))
         self.reject("scene.toml:12: tool tool: it turns, and only some of its contacts", "run", "scene.toml")
 
 

@@ -4,6 +4,7 @@ import json
 import os
 import unittest
 
+from scene_parts import body, box, contact, quantity, shape, timed
 from support import PROGRAM, OfTwoBlocks
 from tutorial import files as tutorial_files
 from user_scenes import UserScene, UserSpaceScene
@@ -12,53 +13,17 @@ from user_walk import walk
 # STEP with a bound and rounds; bodies of files with rounds and a bound that is refused; an aim at a quantity
 SEEDS = (1, 11, 17)
 IN_SPACE = (38,)  # a stack of two laws, loads at t = 0
-RING = """\
-plane = "axisymmetric"
-degree = 2
-[[body]]
-name = "base"
-mesh = { shape = "rectangle", cells = [5, 3], lower = [0, 0], upper = [1, 1] }
-material = { young = "45 GPa", poisson = 0.3 }
-boundary = [{ label = 1, ux = 0, uy = 0 }]
-[[body]]
-name = "middle"
-mesh = { shape = "rectangle", cells = [4, 3], lower = [0, 1], upper = [0.73, 1.5] }
-material = { young = 15437, poisson = 0.3 }
-boundary = [{ label = 3, ux = 0, uy = "-0.004*t" }]
-[contact]
-variant = "interpolation"
-sides = [{ body = "middle", label = 1 }, { body = "base", label = 3 }]
-shear_limit = 25
-[time]
-end = 1
-steps = 2
-"""
-PUNCH = """\
-plane = "strain"
-[[body]]
-name = "punch"
-mesh = { shape = "rectangle", cells = 4, lower = [-1, 0], upper = [1, 2] }
-material = { young = 100, poisson = 0.3 }
-boundary = [{ label = 3, ux = 0, uy = "-0.01*t" }]
-[[body]]
-name = "ground"
-mesh = { shape = "rectangle", cells = [8, 4], lower = [-4, -4], upper = [4, 0] }
-material = { young = 1, poisson = 0.3 }
-boundary = [{ label = 1, ux = 0, uy = 0 }]
-[contact]
-sides = [{ body = "punch", label = 1 }, { body = "ground", label = 3 }]
-sliding = "allow"
-[[quantity]]
-name = "highest"
-largest_pressure = { body = "punch", label = 1 }
-[[quantity]]
-name = "force"
-reaction = { body = "punch", label = 3 }
-component = "y"
-[time]
-end = 1
-steps = 1
-"""
+RING = ('plane = "axisymmetric"\ndegree = 2\n'
+        + body("base", box([0, 0], [1, 1], [5, 3]), 'young = "45 GPa", poisson = 0.3',
+               "label = 1, ux = 0, uy = 0")
+        + body("middle", box([0, 1], [0.73, 1.5], [4, 3]), 15437, 'label = 3, ux = 0, uy = "-0.004*t"')
+        + contact(("middle", 1), ("base", 3), sides=True, variant="interpolation", shear_limit=25) + timed(2))
+PUNCH = ('plane = "strain"\n'
+         + body("punch", box([-1, 0], [1, 2], 4), 100, 'label = 3, ux = 0, uy = "-0.01*t"')
+         + body("ground", box([-4, -4], [4, 0], [8, 4]), 1, "label = 1, ux = 0, uy = 0")
+         + contact(("punch", 1), ("ground", 3), sides=True, sliding="allow")
+         + quantity("highest", "largest_pressure", "punch", 1)
+         + quantity("force", "reaction", "punch", 3, "y") + timed())
 STUDY = """\
 scene = "scene.toml"
 [[error]]
@@ -161,9 +126,9 @@ class Found(OfTwoBlocks):
         """Under a stiff punch 1/2 at its corners; none in the middle of a wheel (Hertz), as in a scene whose
         mesh shows a peak of the pressure of a few edges."""
         fine = PUNCH.replace("cells = 4", "cells = 24").replace("cells = [8, 4]", "cells = [128, 64]")
-        wheel = fine.replace('mesh = { shape = "rectangle", cells = 24, lower = [-1, 0], upper = [1, 2] }',
-                             'mesh = { shape = "halfdisc", cells = 32, radius = 4, core = 0.8, '
-                             'lowest = [0, 0] }').replace("label = 3, ux = 0, uy", "label = 2, ux = 0, uy")
+        wheel = fine.replace(box([-1, 0], [1, 2], 24), shape("halfdisc", cells=32, radius=4, core=0.8,
+                                                              lowest=[0, 0]))
+        wheel = wheel.replace("label = 3, ux = 0, uy", "label = 2, ux = 0, uy")
         wheel = wheel.replace('reaction = { body = "punch", label = 3 }',
                               'reaction = { body = "punch", label = 2 }')
         for text, order in ((fine, 0.5), (wheel, None)):

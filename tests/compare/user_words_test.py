@@ -5,6 +5,7 @@ import re
 import unittest
 
 from seeded import FAULTS, Case
+from scene_parts import body, box, contact, quantity, timed
 from support import InFolder, mortier
 
 NAMES = {1: "bottom", 2: "right", 3: "top", 4: "left"}
@@ -19,31 +20,13 @@ FORBIDDEN = {
 CONSEQUENCES = {"missing-label": {"no-load", "yields-at-once", "large-strain"},
                 "data": {"yields-at-once", "large-strain", "large-displacement"},
                 "contact-penetration": {"bodies-overlap"}, "contact-missing": {"body-alone"}}
-PRESS = """\
-units = "mm, N, MPa"
-degree = 2
-[[body]]
-name = "punch"
-mesh = { shape = "rectangle", cells = 3, lower = [-1, 0], upper = [1, 2] }
-material = { young = "210 GPa", poisson = 0.3 }
-boundary = [{ label = 3, ux = 0, uy = "-0.001*t" }]
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", cells = [5, 3], lower = [-2, -2], upper = [2, 0] }
-material = { young = "70 GPa", poisson = 0.3 }
-boundary = [{ label = 1, ux = 0, uy = 0 }]
-[contact]
-sides = [{ body = "punch", label = 1 }, { body = "block", label = 3 }]
-[[quantity]]
-name = "mises"
-largest_mises = { body = "punch" }
-[[quantity]]
-name = "other"
-largest_mises = { body = "block" }
-[time]
-end = 1
-steps = 3
-"""
+PRESS = ('units = "mm, N, MPa"\ndegree = 2\n'
+         + body("punch", box([-1, 0], [1, 2], 3), 'young = "210 GPa", poisson = 0.3',
+                'label = 3, ux = 0, uy = "-0.001*t"')
+         + body("block", box([-2, -2], [2, 0], [5, 3]), 'young = "70 GPa", poisson = 0.3',
+                "label = 1, ux = 0, uy = 0") + contact(("punch", 1), ("block", 3), sides=True)
+         + quantity("mises", "largest_mises", "punch") + quantity("other", "largest_mises", "block")
+         + timed(3))
 
 
 def named(case):

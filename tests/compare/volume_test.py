@@ -2,27 +2,14 @@
 import json
 import unittest
 
+from scene_parts import body, box, contact, timed
 from support import InFolder, script, warned
 
-SCENE = """\
-plane = "strain"
-[[body]]
-name = "upper"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 0.5], cells = [5, 3], cut = "rising" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0, uy = "-0.02*t" } ]
-[[body]]
-name = "lower"
-mesh = { shape = "rectangle", lower = [0, -1], upper = [2, 0], cells = [8, 4], cut = "rising" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 1
-steps = 3
-"""
+SCENE = ('plane = "strain"\n'
+         + body("upper", box([0, 0], [1, 0.5], [5, 3], cut="rising"), 100,
+                'label = 3, ux = 0, uy = "-0.02*t"')
+         + body("lower", box([0, -1], [2, 0], [8, 4], cut="rising"), 100, "label = 1, uy = 0",
+                "label = 4, ux = 0") + contact(("upper", 1), ("lower", 3)) + timed(3))
 RUBBER = "body.lower.material.poisson=0.4999"
 FLOWS = "body.lower.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"
 AVERAGED = "volumetric strain averaged"

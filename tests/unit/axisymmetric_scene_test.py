@@ -7,34 +7,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
 import support  # noqa: E402
+from scene_parts import body, box, contact, quantity, timed  # noqa: E402
 
 # A tube of radii 1 and 2 between plates, and a disc on it.
-TUBE = """\
-plane = "axisymmetric"
-[[body]]
-name = "tube"
-mesh = { shape = "rectangle", lower = [1, 0], upper = [2, 1], cells = 3, cut = "both" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, uy = 0 } ]
-[[body]]
-name = "disc"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [2, 2], cells = 4, cut = "both" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 3, pressure = 2 } ]
-[contact]
-nonmortar = { body = "tube", label = 3 }
-mortar = { body = "disc", label = 1 }
-[[quantity]]
-name = "below"
-reaction = { body = "tube", label = 1 }
-component = "y"
-[[quantity]]
-name = "energy"
-stored_energy = { body = "disc" }
-[time]
-end = 1
-steps = 1
-"""
+TUBE = ('plane = "axisymmetric"\n'
+        + body("tube", box([1, 0], [2, 1], 3, cut="both"), 100, "label = 1, uy = 0")
+        + body("disc", box([0, 1], [2, 2], 4, cut="both"), 100, "label = 3, pressure = 2")
+        + contact(("tube", 3), ("disc", 1)) + quantity("below", "reaction", "tube", 1, "y")
+        + quantity("energy", "stored_energy", "disc") + timed())
 
 
 class Axisymmetric(support.OfTwoBlocks):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
+from scene_parts import body, contact, timed  # noqa: E402
 from shape_scenes import GEOMETRY_KEYS, PARTS_GEO  # noqa: E402
 from support import mortier, OfTwoBlocks, told, warned  # noqa: E402
 
@@ -117,15 +118,7 @@ name = "{name}"
 mesh = "{name}.geo"
 material = {{ young = 100, poisson = 0.3 }}
 boundary = [ {{ label = "held", ux = 0, uy = 0 }} ]
-""" for name in ("in", "out")) + """[contact]
-nonmortar = { body = "in", label = "arc" }
-mortar = { body = "out", label = "arc" }
-[time]
-end = 1
-steps = 1
-[output]
-every = 1
-""")
+""" for name in ("in", "out")) + contact(("in", "arc"), ("out", "arc")) + timed() + "[output]\nevery = 1\n")
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "ellipse")
         interface = self.summary_of("ellipse")["interfaces"][0]
         self.assertEqual(interface["sagitta"], 0)
@@ -318,16 +311,9 @@ every = 1
                          r".*label 5 .*region 1 ")
         self.assertIn("x 0 .. 20000,", self.mortier("mesh", "info", "metres.step").stdout)
         self.assertRegex(self.mortier("mesh", "info", "named.geo").stdout, "label 7 .*, hole: ")
-        self.write("""[[body]]
-name = "plate"
-mesh = { file = "plate.step", size = 1 }
-material = { young = 2.1e5, poisson = 0.3 }
-boundary = [ { label = 2, tx = 10 }, { label = 4, tx = -10 } ]
-point = [ { at = [0, 0], ux = 0, uy = 0 }, { at = [20, 0], uy = 0 } ]
-[time]
-end = 1
-steps = 1
-""")
+        self.write(body("plate", '{ file = "plate.step", size = 1 }', 2.1e5, "label = 2, tx = 10",
+                        "label = 4, tx = -10",
+                        point=[{"at": [0, 0], "ux": 0, "uy": 0}, {"at": [20, 0], "uy": 0}]) + timed())
         # The hole is known as a circle: nothing is said of a polygon.
         self.mortier("run", "scene.toml", "--quiet", "--out", "o", "--accuracy", "0.1")
         accuracy = self.summary_of("o")["accuracy"]

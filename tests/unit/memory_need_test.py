@@ -8,26 +8,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
+from scene_parts import body, box, contact, timed  # noqa: E402
 from support import InFolder, mortier  # noqa: E402
 
-SCENE = """
-[[body]]
-name = "upper"
-mesh = "upper.mesh"
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 4, ux = 0 }, { label = 3, ty = "-sin(2*x)*t - 0.01*t" } ]
-[[body]]
-name = "lower"
-mesh = "lower.mesh"
-material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 1, ux = 0, uy = 0 } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 1
-steps = 1
-"""
+SCENE = (body("upper", '"upper.mesh"', 1e3, "label = 4, ux = 0", 'label = 3, ty = "-sin(2*x)*t - 0.01*t"')
+         + body("lower", '"lower.mesh"', 1e3, "label = 1, ux = 0, uy = 0")
+         + contact(("upper", 1), ("lower", 3)) + timed())
 
 
 class MemoryNeed(InFolder):
@@ -36,7 +22,7 @@ class MemoryNeed(InFolder):
                      "upper.mesh")
         self.mortier("mesh", "rectangle", "--cells", f"{cells * 9 // 10},2", "--lower=0,-2", "--upper",
                      f"{cells},0", "lower.mesh")
-        self.write(SCENE.replace("[contact]\n", "[contact]\n" + friction))
+        self.write(SCENE.replace("[time]", friction + "[time]"))
 
     def test_a_thousand_contact_nodes(self):
         self.strips(1000)
@@ -79,7 +65,7 @@ class MemoryNeed(InFolder):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
-        expected = (r"scene.toml:12: contact: the run needs about 45.8 GiB of memory, "
+        expected = (r"scene.toml:11: contact: the run needs about 45.8 GiB of memory, "
                     r"expected at most the \S+ GiB that are available; "
                     r"about 45.\d GiB of it for the dense matrices that friction needs\n")
         self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr,
@@ -90,17 +76,10 @@ class MemoryNeed(InFolder):
         self.assertIn("needs about 45.8 GiB", check.stdout)
 
     def in_space(self, cells, **options):
-        self.write(f"""dimension = 3
-degree = 2
-[[body]]
-name = "cube"
-mesh = {{ shape = "cuboid", upper = [1, 1, 1], cells = {cells} }}
-material = {{ young = 1e3, poisson = 0.3 }}
-boundary = [ {{ label = "bottom", ux = 0, uy = 0, uz = 0 }}, {{ label = "top", tz = "-1 - x" }} ]
-[time]
-end = 1
-steps = 1
-""")
+        self.write("dimension = 3\ndegree = 2\n"
+                   + body("cube", box([0, 0, 0], [1, 1, 1], cells), 1e3,
+                          'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "top", tz = "-1 - x"')
+                   + timed())
         return self.mortier("run", "scene.toml", "--out", "out", **options)
 
     def test_a_body_in_space(self):

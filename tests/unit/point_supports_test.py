@@ -6,20 +6,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
 import support  # noqa: E402
+from scene_parts import body, box, quantity, timed  # noqa: E402
 
 # A block of 2 by 1 that shear on all sides and a pressure at its ends load; both balance.
-FREE = """\
-[[body]]
-name = "block"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2], cut = "both" }
-material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 1, tx = -2 }, { label = 3, tx = 2 }, { label = 2, ty = 2, tx = "y*(1-y)" },
-             { label = 4, ty = -2, tx = "-y*(1-y)" } ]
-POINTS
-[time]
-end = 1
-steps = 1
-"""
+FREE = (body("block", box([0, 0], [2, 1], [4, 2], cut="both"), 100, "label = 1, tx = -2", "label = 3, tx = 2",
+             'label = 2, ty = 2, tx = "y*(1-y)"', 'label = 4, ty = -2, tx = "-y*(1-y)"', more="POINTS\n")
+        + timed())
 AT_THE_BASE = """\
 [[body.point]]
 at = [0, 0]
@@ -29,20 +21,9 @@ uy = 0
 at = [2, 0]
 uy = 0
 """
-QUANTITIES = """
-[[quantity]]
-name = "left"
-reaction = { body = "block", point = [0, 0] }
-component = "y"
-[[quantity]]
-name = "right"
-reaction = { body = "block", point = [2, 0] }
-component = "y"
-[[quantity]]
-name = "turns"
-reaction = { body = "block", point = [2, 0] }
-component = "moment"
-"""
+QUANTITIES = (quantity("left", "reaction", "block", component="y", point=[0, 0])
+              + quantity("right", "reaction", "block", component="y", point=[2, 0])
+              + quantity("turns", "reaction", "block", component="moment", point=[2, 0]))
 
 
 class Points(support.OfTwoBlocks):
@@ -79,12 +60,8 @@ class Points(support.OfTwoBlocks):
         self.assertIn("is held at [2, 0] by a force of 3 N/m", " ".join(run.stdout.split()))
 
     def test_points_move_as_prescribed(self):
-        self.solve(AT_THE_BASE.replace("uy = 0\n", 'uy = "0.25*t*(1+x)"\n'), more="""
-[[quantity]]
-name = "moves"
-displacement = { body = "block", point = [2, 0] }
-component = "y"
-""")
+        self.solve(AT_THE_BASE.replace("uy = 0\n", 'uy = "0.25*t*(1+x)"\n'),
+                   more=quantity("moves", "displacement", "block", component="y", point=[2, 0]))
         rows = self.rows_of("out/history.csv")
         self.assertEqual(float(rows[-1]["moves[m]"]), 0.75)
 
@@ -94,7 +71,7 @@ component = "y"
                             ("[2.2, 0.1]", "the nearest one is at [2, 0], 0.224 away")):
             self.write(FREE.replace("POINTS", AT_THE_BASE.replace("[2, 0]", at)))
             done = self.mortier("run", "scene.toml", "--quiet", code=2)
-            self.assertIn(f"scene.toml:12: body block: point = {at}, expected a vertex of ", done.stderr)
+            self.assertIn(f"scene.toml:11: body block: point = {at}, expected a vertex of ", done.stderr)
             self.assertIn(message, done.stderr)
             checked = support.mortier("check", "scene.toml", cwd=self.folder)
             self.assertEqual(checked.returncode, 2)

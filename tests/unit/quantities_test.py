@@ -5,24 +5,13 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
+from scene_parts import quantity  # noqa: E402
 from scenes import HELD_AND_PRESSED, TWO_BLOCKS  # noqa: E402
 from support import OfTwoBlocks, mortier  # noqa: E402
 
-ASKED = HELD_AND_PRESSED + """\
-[[quantity]]
-name = "turns"
-reaction = { body = "lower", label = 1 }
-component = "moment"
-about = [0.5, 0]
-[[quantity]]
-name = "sinks"
-displacement = { body = "upper", point = [0.25, 1] }
-component = "y"
-[[quantity]]
-name = "top"
-displacement = { body = "upper", label = 3 }
-component = "y"
-"""
+ASKED = HELD_AND_PRESSED + (quantity("turns", "reaction", "lower", 1, "moment", about=[0.5, 0])
+                            + quantity("sinks", "displacement", "upper", component="y", point=[0.25, 1])
+                            + quantity("top", "displacement", "upper", 3, "y"))
 
 
 ENERGIES = "".join(f"""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
+from scene_parts import quantity  # noqa: E402
 from scenes import HELD_AND_PRESSED, TWO_BLOCKS  # noqa: E402
 from support import ROOT, OfTwoBlocks  # noqa: E402
 
@@ -18,22 +19,10 @@ MEASURED = TWO_BLOCKS.replace("young = 3e11", 'young = "300 GPa"').replace(
     "end = 1\n", 'end = "1000 ms"\n').replace(
     'ty = "-10*t"', 'ty = { time = [0, "1 s"], value = [0, "-1e-2 kPa"] }')
 
-ASKED = HELD_AND_PRESSED + """\
-[[quantity]]
-name = "energy"
-stored_energy = { body = "upper" }
-[[quantity]]
-name = "turns"
-reaction = { body = "lower", label = 1 }
-component = "moment"
-[[quantity]]
-name = "top"
-displacement = { body = "upper", point = ["500 um", 1] }
-component = "y"
-[[quantity]]
-name = "mises"
-largest_mises = { body = "lower" }
-"""
+ASKED = HELD_AND_PRESSED + (quantity("energy", "stored_energy", "upper")
+                            + quantity("turns", "reaction", "lower", 1, "moment")
+                            + quantity("top", "displacement", "upper", component="y", point=["500 um", 1])
+                            + quantity("mises", "largest_mises", "lower"))
 
 
 SI = 'units = "m, N, Pa"\n'
