@@ -46,12 +46,13 @@ SOFTENING = ('check.allow = ["large-strain"]\n'
              + contact(("upper", 1), ("lower", 3)) + timed(None, scheme="sdirk2", tolerance=1e-2))
 
 
-def along_deviator(factor, parameters, more=""):
+def along_deviator(factor, parameters, more="", components=("11", "22", "12", "33")):
     """A law whose rate is a factor times the deviator."""
-    lines = [f'rate{c} = "({factor})*(s{c}{"" if c == "12" else " - mean"}){more.format(c=c)}"'
-             for c in ("11", "22", "12", "33")]
+    lines = [f'rate{c} = "({factor})*(s{c}{" - mean" if c[0] == c[1] else ""}){more.format(c=c)}"'
+             for c in components]
+    mises = MISES.replace("3*s12^2", "3*(s12^2 + s13^2 + s23^2)") if "13" in components else MISES
     return "\n".join(['law = "expression"', "isotropic = true", *lines,
-                      f'parameters = {{ mises = "{MISES}", mean = "(s11 + s22 + s33)/3", {parameters} }}'])
+                      f'parameters = {{ mises = "{mises}", mean = "(s11 + s22 + s33)/3", {parameters} }}'])
 
 
 NORTON = along_deviator("1.5*r0/s0*(mises/s0)^(n - 1)", "s0 = 1e7, r0 = 1e-4, n = 5")

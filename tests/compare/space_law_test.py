@@ -1,11 +1,12 @@
 """User-defined laws in space, as expressions of six components: beside the built-in laws that they repeat,
 and beside plane strain."""
+import functools
 import unittest
 
+import own_law_test
+from scene_parts import body, shape, timed
 from support import InFolder, mortier, set_option
 
-MISES = ("sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*(s12^2 + s13^2 + s23^2))")
-COMPONENTS = ("11", "22", "12", "33", "13", "23")
 CUBE = """\
 dimension = 3
 [[body]]
@@ -31,14 +32,8 @@ steps = 4
 """
 
 
-def along_deviator(factor, parameters, more="", components=COMPONENTS):
-    lines = [f'rate{c} = "({factor})*(s{c}{" - mean" if c[0] == c[1] else ""}){more.format(c=c)}"'
-             for c in components]
-    mises = MISES if "13" in components else MISES.replace(" + s13^2 + s23^2", "")
-    return "\n".join(['law = "expression"', "isotropic = true", *lines,
-                      f'parameters = {{ mises = "{mises}", mean = "(s11 + s22 + s33)/3", {parameters} }}'])
-
-
+along_deviator = functools.partial(own_law_test.along_deviator,
+                                   components=("11", "22", "12", "33", "13", "23"))
 NORTON = along_deviator("1.5*r0/s0*(mises/s0)^(n - 1)", "s0 = 5, r0 = 0.1, n = 4")
 PAIRS = {
     "norton": ('law = "norton"\nreference_stress = 5\nreference_rate = 0.1\nexponent = 4', NORTON),
@@ -80,37 +75,18 @@ class SpaceLaw(InFolder):
         """A law without isotropy in the plane, on a block that is held at both ends."""
         rates = {"11": "0.02*s11 + 0.01*s12 - 0.01*s33", "22": "0.01*s22*abs(s22) - 0.01*s33",
                  "12": "0.03*s12 + 0.005*s11", "33": "0.02*s33 - 0.005*(s11 + s22)"}
-        lines = "\n".join(f'rate{c} = "{rate}"' for c, rate in rates.items())
-        block = """\
-{head}
-[[body]]
-name = "block"
-mesh = {{ shape = {shape}, cells = 2 }}
-[body.material]
-young = 100
-poisson = 0.3
-law = "expression"
-{law}
-[[body.boundary]]
-label = 2
-tx = "3*t"
-{shear}
-[[body.boundary]]
-label = 3
-tx = "1*t"
-ty = "-4*t"
-{more}
-[time]
-end = 1
-steps = 6
-scheme = "sdirk2"
-"""
+        def block(head, kind, rates, *loads, more):
+            law = ", ".join(f'rate{c} = "{rate}"' for c, rate in rates.items())
+            return (f"{head}\n" + body("block", shape(kind, cells=2),
+                                       f'young = 100, poisson = 0.3, law = "expression", {law}', *loads,
+                                       more=more) + timed(6, scheme="sdirk2"))
+
         # Tractions all around, and supports at points that only take the rigid motion away.
-        plane = self.history(block.format(
-            head='plane = "strain"', shape='"rectangle"', law=lines, shear='ty = "1*t"',
-            more='[[body.boundary]]\nlabel = 1\ntx = "-1*t"\nty = "4*t"\n[[body.boundary]]\nlabel = 4\n'
-                 'tx = "-3*t"\nty = "-1*t"\n[[body.point]]\nat = [0, 0]\nux = 0\nuy = 0\n'
-                 '[[body.point]]\nat = [1, 0]\nuy = 0'))
+        plane = self.history(block(
+            'plane = "strain"', "rectangle", rates, 'label = 2, tx = "3*t", ty = "1*t"',
+            'label = 3, tx = "1*t", ty = "-4*t"', 'label = 1, tx = "-1*t", ty = "4*t"',
+            'label = 4, tx = "-3*t", ty = "-1*t"',
+            more="[[body.point]]\nat = [0, 0]\nux = 0\nuy = 0\n[[body.point]]\nat = [1, 0]\nuy = 0\n"))
         # y of the plane is z of the cuboid, and its y is z of the plane: 33 is 22, 12 is 13.
         turn = {"11": "11", "22": "33", "12": "13", "33": "22"}
         turned = {}
@@ -119,13 +95,12 @@ scheme = "sdirk2"
                 rate = rate.replace(f"s{a}", f"S{b}")
             turned[turn[c]] = rate.replace("S", "s")
         turned.update({"12": "0.02*s12", "23": "0.02*s23"})
-        space = self.history(block.format(
-            head="dimension = 3", shape='"cuboid"', shear='tz = "1*t"',
-            law="\n".join(f'rate{c} = "{rate}"' for c, rate in turned.items()),
-            more='[[body.boundary]]\nlabel = 1\ntx = "-1*t"\ntz = "4*t"\n[[body.boundary]]\nlabel = 4\n'
-                 'tx = "-3*t"\ntz = "-1*t"\n[[body.boundary]]\nlabel = 5\nuy = 0\n[[body.boundary]]\n'
-                 'label = 6\nuy = 0\n[[body.point]]\nat = [0, 0, 0]\nux = 0\nuz = 0\n[[body.point]]\n'
-                 'at = [1, 0, 0]\nuz = 0').replace('ty = "-4*t"', 'tz = "-4*t"'))
+        space = self.history(block(
+            "dimension = 3", "cuboid", turned, 'label = 2, tx = "3*t", tz = "1*t"',
+            'label = 3, tx = "1*t", tz = "-4*t"', 'label = 1, tx = "-1*t", tz = "4*t"',
+            'label = 4, tx = "-3*t", tz = "-1*t"', "label = 5, uy = 0", "label = 6, uy = 0",
+            more="[[body.point]]\nat = [0, 0, 0]\nux = 0\nuz = 0\n"
+                 "[[body.point]]\nat = [1, 0, 0]\nuz = 0\n"))
         self.compare(space, plane, {"von_mises_max[Pa]": "von_mises_max[Pa]",
                                     "displacement_max[m]": "displacement_max[m]",
                                     "elastic_energy[J]": "elastic_energy[J/m]"}, 1e-9)
