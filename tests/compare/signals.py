@@ -20,6 +20,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from scene_parts import body, box, contact, timed, written
 from support import PROGRAM, ROOT, processor_time
 
 MOST = 1.0  # seconds of processor time after the signal
@@ -30,31 +31,16 @@ MEASURED = ("summary.json", "manifest.json")  # hold times
 
 def blocks(dimension, upper, lower, top, steps, material, more=""):
     """Two blocks of so many cells along an edge, pressed on each other."""
-    shape = "rectangle" if dimension == 2 else "cuboid"
-    corner = dimension * (1,)
-    below = [*(0 for _ in corner[1:]), -1]
-    held = {2: "ux = 0, uy = 0", 3: "ux = 0, uy = 0, uz = 0"}[dimension]
-    ends = {2: (1, 3), 3: ('"bottom"', '"top"')}[dimension]
-    rollers = '{ label = "left", ux = 0 }, { label = "front", uy = 0 }' if dimension == 3 else \
-        "{ label = 4, ux = 0 }"
-    return f"""{"dimension = 3" if dimension == 3 else 'plane = "strain"'}
-degree = 2
-[[body]]
-name = "upper"
-mesh = {{ shape = "{shape}", cells = {upper}, lower = {[0 for _ in corner]}, upper = {list(corner)} }}
-material = {{ {material} }}
-boundary = [ {{ label = {ends[1]}, {top} }}, {rollers} ]
-[[body]]
-name = "lower"
-mesh = {{ shape = "{shape}", cells = {lower}, lower = {below}, upper = {[1 for _ in corner[1:]] + [0]} }}
-material = {{ {material} }}
-boundary = [ {{ label = {ends[0]}, {held} }} ]
-[contact]
-sides = [ {{ body = "upper", label = {ends[0]} }}, {{ body = "lower", label = {ends[1]} }} ]
-[time]
-end = 1
-steps = {steps}
-{more}"""
+    space = dimension == 3
+    base, roof = ("bottom", "top") if space else (1, 3)
+    ends = [0] * dimension, [1] * dimension
+    below = [*ends[0][1:], -1], [*ends[1][1:], 0]
+    rollers = ('label = "left", ux = 0', 'label = "front", uy = 0') if space else ("label = 4, ux = 0",)
+    return (("dimension = 3" if space else 'plane = "strain"') + "\ndegree = 2\n"
+            + body("upper", box(*ends, upper), material, f"label = {written(roof)}, {top}", *rollers)
+            + body("lower", box(*below, lower), material,
+                   f"label = {written(base)}, ux = 0, uy = 0" + (", uz = 0" if space else ""))
+            + contact(("upper", base), ("lower", roof), sides=True) + timed(steps) + more)
 
 
 ELASTIC = "young = 100, poisson = 0.3"

@@ -1,6 +1,7 @@
 """Steps in space chosen by their error: those of the plane on bodies that are extruded, and the tolerance."""
 import unittest
 
+from scene_parts import body, box, contact, quantity, timed
 from support import InFolder, values
 
 # Two blocks in plane strain and the same blocks in space, held at both ends: the stress is uniform in each.
@@ -13,72 +14,32 @@ MATERIALS = {
 PRESSURE = "8*min(t, 0.4) + (t > 0.7)"
 
 
-def blocks(space, laws, time):
-    def place(x, y):
-        return f"[{x}, 0, {y}]" if space else f"[{x}, {y}]"
-    ends = "{ label = 5, uy = 0 }, { label = 6, uy = 0 }, " if space else ""
+def blocks(space, laws, steps=None, **time):
+    ends = ["label = 5, uy = 0", "label = 6, uy = 0"] if space else []
     up = "z" if space else "y"
-    bodies = "".join(f"""\
-[[body]]
-name = "{name}"
-volume = "pointwise"
-mesh = {{ shape = "{"cuboid" if space else "rectangle"}", cells = {cells}, lower = {place(0, low)}, """
-        f"upper = {f'[1, 1, {low + 1}]' if space else f'[1, {low + 1}]'} }}"
-        f"""
-material = {{ young = 100, poisson = 0.3, {law} }}
-boundary = [ {ends}{{ label = 4, ux = 0 }}, {held} ]
-""".replace(",  }", " }").replace(", }", " }") for name, cells, low, law, held in (
-            ("upper", 1, 0, laws[0], f'{{ label = 3, pressure = "{PRESSURE}" }}'),
-            ("lower", 2, -1, laws[1], f"{{ label = 1, u{up} = 0 }}")))
-    return f"""\
-{"dimension = 3" if space else 'plane = "strain"'}
-{bodies}[contact]
-nonmortar = {{ body = "upper", label = 1 }}
-mortar = {{ body = "lower", label = 3 }}
-variant = "weighted"
-[time]
-end = 1
-{time}
-"""
+
+    def block(name, cells, low, law, held):
+        corners = [[0, 0, low], [1, 1, low + 1]] if space else [[0, low], [1, low + 1]]
+        material = "young = 100, poisson = 0.3" + (f", {law}" if law else "")
+        return body(name, box(*corners, cells), material, *ends, "label = 4, ux = 0", held,
+                    volume="pointwise")
+    return (("dimension = 3\n" if space else 'plane = "strain"\n')
+            + block("upper", 1, 0, laws[0], f'label = 3, pressure = "{PRESSURE}"')
+            + block("lower", 2, -1, laws[1], f"label = 1, u{up} = 0")
+            + contact(("upper", 1), ("lower", 3), variant="weighted") + timed(steps, **time))
 
 
-# A block that tilts onto another one, and flows: contact closes and opens, the load has kinks.
-PRESSED = """\
-dimension = 3
-degree = {degree}
-[[body]]
-name = "upper"
-mesh = {{ shape = "cuboid", cells = 2 }}
-material = {{ young = 100, poisson = 0.3, {law} }}
-[[body.boundary]]
-label = "top"
-tz = "-4*(1 + x*y)*(t < 0.3 ? t/0.3 : 1.3 - t)"
-[[body.boundary]]
-label = "left"
-ux = 0
-[[body.boundary]]
-label = "front"
-uy = 0
-[[body]]
-name = "lower"
-mesh = {{ shape = "cuboid", lower = [0, 0, -1], upper = [1.5, 1.5, 0], cells = 2 }}
-material = {{ young = 100, poisson = 0.3 }}
-boundary = [ {{ label = "bottom", ux = 0, uy = 0, uz = 0 }} ]
-[contact]
-nonmortar = {{ body = "upper", label = "bottom" }}
-mortar = {{ body = "lower", label = "top" }}
-[[quantity]]
-name = "corner"
-displacement = {{ body = "upper", point = [1, 1, 1] }}
-component = "z"
-[[quantity]]
-name = "stored"
-stored_energy = {{ body = "upper" }}
-[time]
-end = 1
-scheme = "{scheme}"
-{time}
-"""
+def pressed(degree, law, steps=None, **time):
+    """A block that tilts onto another one, and flows: contact closes and opens, the load has kinks."""
+    return (f"dimension = 3\ndegree = {degree}\n"
+            + body("upper", box([0, 0, 0], [1, 1, 1], 2), f"young = 100, poisson = 0.3, {law}",
+                   'label = "top", tz = "-4*(1 + x*y)*(t < 0.3 ? t/0.3 : 1.3 - t)"', 'label = "left", ux = 0',
+                   'label = "front", uy = 0')
+            + body("lower", box([0, 0, -1], [1.5, 1.5, 0], 2), 100,
+                   'label = "bottom", ux = 0, uy = 0, uz = 0')
+            + contact(("upper", "bottom"), ("lower", "top"))
+            + quantity("corner", "displacement", "upper", component="z", point=[1, 1, 1])
+            + quantity("stored", "stored_energy", "upper") + timed(steps, **time))
 
 
 class SpaceSteps(InFolder):
@@ -92,10 +53,10 @@ class SpaceSteps(InFolder):
             for scheme in ("sdirk2", "backward-euler"):
                 with self.subTest(name, scheme=scheme):
                     tolerance = 1e-3 if scheme == "sdirk2" else 1e-2
-                    time = f'scheme = "{scheme}"\ntolerance = {tolerance}'
+                    time = {"scheme": scheme, "tolerance": tolerance}
                     exact = "solver.tolerance=1e-14"  # what steps are chosen by is not the rounding of steps
-                    plane = self.history(blocks(False, laws, time), exact)
-                    space = self.history(blocks(True, laws, time), exact)
+                    plane = self.history(blocks(False, laws, **time), exact)
+                    space = self.history(blocks(True, laws, **time), exact)
                     self.assertGreater(len(plane), 5)
                     self.assertEqual(len(space), len(plane))
                     for column in ("time[s]", "von_mises_max[Pa]", "displacement_max[m]", "max_pressure[Pa]"):
@@ -108,8 +69,7 @@ class SpaceSteps(InFolder):
                                            delta=1e-9)
 
     def test_steps_end_where_data_turn(self):
-        time = 'scheme = "sdirk2"\ntolerance = 1e-2'
-        text = blocks(True, MATERIALS["maxwell"], time)
+        text = blocks(True, MATERIALS["maxwell"], scheme="sdirk2", tolerance=1e-2)
         times = {row["time[s]"] for row in self.history(text)}
         self.assertTrue({0.4, 0.7} <= times, times)
         # What happens at one place of the boundary, or of the body, and along z.
@@ -122,7 +82,7 @@ class SpaceSteps(InFolder):
         self.assertTrue({0.15, 0.45} <= times, times)
 
     def test_what_varies_too_fast_is_refused_with_its_place(self):
-        text = blocks(True, MATERIALS["maxwell"], 'scheme = "sdirk2"\ntolerance = 1e-2')
+        text = blocks(True, MATERIALS["maxwell"], scheme="sdirk2", tolerance=1e-2)
         self.write(text.replace(PRESSURE, "sin(1e7*t*(1 + z))"))
         said = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=2).stderr
         self.assertRegex(said, r"expected a datum that can be sampled in time: at \(.*, .*, 1\) it varies")
@@ -132,13 +92,12 @@ class SpaceSteps(InFolder):
         corner by somewhat more than the mean."""
         for degree, law in ((1, "viscosity = 1, yield_stress = 1.5"),
                             (2, 'law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3')):
-            fine = PRESSED.format(degree=degree, law=law, scheme="sdirk2", time="steps = 320")
+            fine = pressed(degree, law, 320, scheme="sdirk2")
             self.history(fine)
             exact = values(self.summary)
             for scheme, tolerance in (("sdirk2", 1e-2), ("sdirk2", 1e-3), ("backward-euler", 2e-2)):
                 with self.subTest(law, scheme=scheme, tolerance=tolerance):
-                    rows = self.history(PRESSED.format(degree=degree, law=law, scheme=scheme,
-                                                       time=f"tolerance = {tolerance}"))
+                    rows = self.history(pressed(degree, law, scheme=scheme, tolerance=tolerance))
                     self.assertLess(len(rows), 320)
                     self.assertIn(0.3, {row["time[s]"] for row in rows})
                     self.assertLessEqual(self.summary["accuracy"]["time"], tolerance)
@@ -147,15 +106,13 @@ class SpaceSteps(InFolder):
                         self.assertAlmostEqual(each["value"] / exact[name], 1, delta=within, msg=name)
 
     def test_rounds_choose_steps_where_bodies_flow(self):
-        text = PRESSED.format(degree=1, law='law = "maxwell", relaxation_time = 0.5', scheme="sdirk2",
-                              time="steps = 3")
+        text = pressed(1, 'law = "maxwell", relaxation_time = 0.5', 3, scheme="sdirk2")
         self.history(text, "accuracy={energy=0.4, max_unknowns=20000}")
         self.assertGreater(self.summary["accuracy"]["time"], 0)
         self.assertLess(self.summary["accuracy"]["time"], 0.2 * 0.4 + 1e-12)
 
     def test_checks_name_data_that_pass_between_equal_steps(self):
-        time = "steps = 5"
-        self.write(blocks(True, MATERIALS["maxwell"], time).replace(
+        self.write(blocks(True, MATERIALS["maxwell"], steps=5).replace(
             PRESSURE, "exp(-((t - 0.5)/0.02)^2)*(y > 0.5)"))
         said = self.mortier("check", "scene.toml").stdout
         self.assertIn("load-between-steps", said)
