@@ -110,8 +110,16 @@ FrictionSolution solveOnSprings(const ContactProblem& problem, const Vector& q, 
   work.ambiguous = ambiguous;  // the sign of a determinant that is rounding has no meaning
   result = solveDependent(problem, q, springs, first, work);
   if (result.solved) return result;
-  // A single set may be singular where conditions are independent.
   work.ambiguous = ambiguous;
+  if (problem.along.components > 1) {
+    // Where sets differ by forces that balance each other Newton's method goes round, and sweeps do not.
+    if (const auto swept = solveBySweeps(FrictionSystem(problem, q, springs, work))) {
+      work.singular = true;
+      return *swept;
+    }
+    work.ambiguous = ambiguous;
+  }
+  // A single set may be singular where conditions are independent.
   return solveIndependent(problem, q, springs, first, false, work);
 }
 
@@ -121,6 +129,8 @@ FrictionSolution solveFriction(const ContactProblem& given, Vector q, FrictionSe
                                std::vector<FrictionSolution>* all) {
   constexpr int repetitions = 15;
   constexpr double softest = 1e-4;  // springs, over those to begin with
+  constexpr double stiffer = 1e3;
+  constexpr double stiffest = 0.1;  // over the stiffness of contact
   constexpr double mostImbalance = 1e-9;
   constexpr double roundingOfGaps = 1e-5;  // an imbalance of 1e-9 of that is rounding
 
@@ -146,8 +156,17 @@ FrictionSolution solveFriction(const ContactProblem& given, Vector q, FrictionSe
   double imbalance = 0;
   double beside = 0;
   Vector change;
+  bool stiffened = false;
   const auto solve = [&] {
     result = solveOnSprings(problem, q, springs, first, work);
+    // On weak springs bodies that nothing presses move far in a solve, and Newton's method goes round.
+    for (double most = stiffest * G.squaredNorm() / compliance;
+         !result.solved && springs.stiffness < most && !uncarriedLoad(problem, load);) {
+      springs.stiffness *= stiffer;
+      stiffened = true;
+      work.swept = false;
+      result = solveOnSprings(problem, q, springs, first, work);
+    }
     if (!result.solved) return 0.0;
     first = result.sets;
     change = result.rigid - springs.z0;
@@ -163,6 +182,7 @@ FrictionSolution solveFriction(const ContactProblem& given, Vector q, FrictionSe
     const double usual = problem.forceScale + roundingOfGaps * q.lpNorm<Eigen::Infinity>() / compliance;
     const double scale = beside + usual * G.cwiseAbs().colwise().sum().lpNorm<Eigen::Infinity>();
     result.balanced = G.cols() == 0 || imbalance <= mostImbalance * scale;
+    result.solved = result.balanced || !stiffened;  // else these springs hold what would not be held
     if (all != nullptr && result.balanced) *all = solutionsOnPath(problem, q, springs, result);
     result.rigid = result.balanced ? Vector(result.rigid + moved) : change;
   }

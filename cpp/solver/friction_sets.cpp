@@ -288,6 +288,11 @@ FrictionSolution FrictionSystem::clipped(FrictionSolution trial) const {
   return trial;
 }
 
+std::optional<FrictionSolution> FrictionSystem::asSolution(FrictionSolution trial) const {
+  if (!(residual(trial) <= roundingOfForces)) return std::nullopt;
+  return clipped(std::move(trial));
+}
+
 std::optional<FrictionSolution> FrictionSystem::newton(FrictionSets sets) const {
   if (components() > 1) return newtonInSpace(std::move(sets));
   constexpr int patience = 20;

@@ -117,6 +117,8 @@ class FrictionSystem {
   std::optional<FrictionSolution> newton(FrictionSets sets) const;
   /// The next sets of Newton's method.
   [[nodiscard]] FrictionSets next(const FrictionSolution& trial) const;
+  /// Forces and motions as a solution; nothing where they are none but for rounding.
+  [[nodiscard]] std::optional<FrictionSolution> asSolution(FrictionSolution trial) const;
   /// For fixed bounds, in as many solves at most: changes of one condition where Newton's method goes round.
   std::optional<FrictionSolution> changeSingly(FrictionSets sets, int most) const;
 
@@ -154,7 +156,8 @@ inline Point withinBall(const Point& force, double limit) {
 }
 
 /// In space: Newton's method after sweeps from zero forces, in which the forces of one node after the other
-/// become those that its own motion demands (friction_sweeps.cpp; Jourdan, Alart and Jean 1998).
+/// become those that its own motion demands (friction_sweeps.cpp; Jourdan, Alart and Jean 1998). Where
+/// conditions depend on each other Newton's method may go round though sweeps come to an end.
 std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system);
 
 /// In space: the same problem with a compliance, small beside the others, along directions in which no free

@@ -8,8 +8,10 @@
 namespace mortier {
 
 std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
-  constexpr int first = 25;  // sweeps before Newton's method is tried, then twice as many
-  constexpr int most = 1600;
+  constexpr int first = 25;       // sweeps before Newton's method is tried, then twice as many
+  constexpr double most = 25600;  // of few conditions; slow where compliances are far apart
+  constexpr double least = 1600;
+  constexpr double work = 1e9;   // products
   constexpr double stiff = 0.1;  // springs, over the stiffness of contact
   const ContactProblem& problem = system.problem();
   const auto& [node, law, components] = problem.along;
@@ -30,7 +32,8 @@ std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
   std::vector<std::vector<Eigen::Index>> nodesOf(system.normals());
   for (size_t k = 0; k < node.size(); ++k) nodesOf[node[k]].push_back(static_cast<Eigen::Index>(k));
   int next = first;
-  for (int sweep = 1; sweep <= most; ++sweep) {
+  const double sweeps = std::clamp(work / static_cast<double>(W.size()), least, most);
+  for (int sweep = 1; sweep <= sweeps; ++sweep) {
     stopIfInterrupted();
     trial.motion = system.q() + problem.W * trial.force - G * z;
     if (G.cols() > 0) {
@@ -52,8 +55,14 @@ std::optional<FrictionSolution> solveBySweeps(const FrictionSystem& system) {
     }
     if (sweep < next) continue;
     next *= 2;
-    if (std::optional<FrictionSolution> found = system.newton(system.next(trial)); found && found->index > 0)
-      return found;
+    std::optional<FrictionSolution> found = system.newton(system.next(trial));
+    if (!found && G.cols() == 0) {
+      trial.motion = system.q() + problem.W * trial.force;
+      FrictionSolution swept = trial;
+      swept.sets = system.next(trial);
+      found = system.asSolution(std::move(swept));
+    }
+    if (found && found->index > 0) return found;
   }
   return std::nullopt;
 }

@@ -154,5 +154,56 @@ TEST(FrictionInSpace, linearResponseIsTheDerivative) {
   }
 }
 
+/// Bodies that do not strain, piled up, each on a few points of the one below: three conditions a point, six
+/// motions a body. W = H H', q = H v of any motions v: a solution exists (Cadoux 2009), its forces are not
+/// the only ones where points are more than three.
+SpaceCase pile(std::mt19937& random, int bodies, int points, double mu) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> mass(0.1, 10);
+  const int n = bodies * points;
+  Matrix H = Matrix::Zero(3 * n, 6 * bodies);
+  for (int b = 0; b < bodies; ++b) {
+    const double scale = 1 / std::sqrt(mass(random));
+    for (int k = b * points; k < std::min((b + 2) * points, n); ++k) {  // below it, and the next body on it
+      const bool below = k < (b + 1) * points;
+      std::mt19937 ofPoint(static_cast<unsigned>(1000 * bodies + k));
+      const auto noise = [&] { return normal(ofPoint); };
+      const SpacePoint axis = SpacePoint(0.3 * noise(), 0.3 * noise(), 1).normalized();
+      const SpacePoint first = axis.unitOrthogonal();
+      const SpacePoint arm(noise(), noise(), below ? -1 : 1);
+      const std::array<SpacePoint, 3> directions{axis, first, axis.cross(first)};
+      for (int c = 0; c < 3; ++c) {
+        const Eigen::Index row = c == 0 ? k : n + 2 * k + c - 1;
+        const double sign = below ? scale : -scale;
+        H.block<1, 3>(row, 6 * b) = sign * directions[c].transpose();
+        H.block<1, 3>(row, 6 * b + 3) = sign * arm.cross(directions[c]).transpose();
+      }
+    }
+  }
+  SpaceCase c;
+  c.problem.W = H * H.transpose();
+  c.problem.G.resize(3 * n, 0);
+  c.problem.along = {allNodes(n), {Vector::Constant(n, mu), Vector::Zero(n)}, 2};
+  Vector v = Vector::NullaryExpr(6 * bodies, [&] { return normal(random); });
+  for (int b = 0; b < bodies; ++b) v[6 * b + 2] -= 2;  // they fall
+  c.q = H * v;
+  return c;
+}
+
+// Where conditions outnumber motions sets differ by forces that balance each other.
+TEST(FrictionInSpace, pilesOfRigidBodiesHaveForces) {
+  std::mt19937 random(11);
+  int pressed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const SpaceCase c = pile(random, 1 + trial % 3, 3 + trial % 4, 0.1 + 0.2 * (trial % 5));
+    const auto n = static_cast<int>(c.problem.normals());
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
+    ASSERT_TRUE(solution.solved) << "trial " << trial;
+    EXPECT_LE(worstFault(c, solution.force), 1e-10) << "trial " << trial;
+    pressed += solution.force.head(n).maxCoeff() > 0 ? 1 : 0;
+  }
+  EXPECT_GE(pressed, 50);
+}
+
 }  // namespace
 }  // namespace mortier::friction_in_space_test
