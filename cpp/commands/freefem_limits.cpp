@@ -177,6 +177,8 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
   for (size_t k = 0; k < scene.contacts.size(); ++k) {
     if (scene.contacts[k].gap) refuse(scene.contacts[k].where + ": contact: gap", "distances as meshed");
     if (scene.contacts[k].friction.any()) refuse(scene.contacts[k].where + ": contact: friction", "none");
+    if (scene.contacts[k].sliding == SlidingKind::finite)
+      refuse(scene.contacts[k].where + ": contact: sliding = \"finite\"", "refuse or allow");
     if (scene.contacts[k].initial == InitialGap::close)
       refuse(scene.contacts[k].where + ": contact: initial = \"close\"", "distances as meshed");
     const ContactPair& pair = model.interfaces[k].pair();

@@ -87,6 +87,14 @@ void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLi
 }
 
 void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows, const MortarMotion* motion) {
+  if (surfaces_ != nullptr)
+    followSurfaces(u1, u2, keepRows, motion);
+  else
+    followLines(u1, u2, keepRows, motion);
+}
+
+void ContactInterface::followLines(const Vector& u1, const Vector& u2, bool keepRows,
+                                   const MortarMotion* motion) {
   const Lines& lines = *lines_;
   const Vector& moved2 = motion != nullptr ? motion->moved : u2;
   // Contact acts along the normal of the stiffer body, which hardly bends.

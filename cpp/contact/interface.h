@@ -18,6 +18,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -99,6 +100,11 @@ struct MortarMotion {
   Eigen::SparseMatrix<double> change;  ///< its derivative there; the rows of the mortar line
 };
 
+struct ContactSurface;
+class TriangleTree;
+struct SurfaceRefinement;
+using PartVertex = std::pair<int, int>;
+
 class ContactInterface {
  public:
   /// \throws InputError when the lines do not face each other, overlap nowhere, or are not as far from each
@@ -115,7 +121,7 @@ class ContactInterface {
 
   /// Whether rows are those of bodies that displacements have moved, instead of the bodies as meshed. Then
   /// every nonmortar node that may ever face the mortar side has its row, which is empty where it does not.
-  [[nodiscard]] bool follows() const { return lines_ != nullptr; }
+  [[nodiscard]] bool follows() const { return lines_ != nullptr || surfaces_ != nullptr; }
   /// Makes the rows those of the bodies moved by u_k, and g0 such that C u - g0 is the gap linearised there:
   ///   g = C (u - u_k) - d(u_k).
   /// \param keepRows  only nodes that have a row now have one, and corners of lines keep their weights: at
@@ -126,7 +132,7 @@ class ContactInterface {
   [[nodiscard]] const Vector& distanceHere() const { return distanceHere_; }
   /// Whether a row is not empty.
   [[nodiscard]] bool faces(int row) const { return faces_.empty() || faces_[row] != 0; }
-  /// Where rows follow, all nodes of the nonmortar line.
+  /// Where rows follow, all nodes of the nonmortar side.
   [[nodiscard]] const std::vector<int>& nonmortarLine() const { return nonmortarLine_; }
 
   /// 2 or 3: columns of C are dofs dimension() node + component.
@@ -259,13 +265,28 @@ class ContactInterface {
   struct Lines;
   /// Matrices while they are put together.
   struct Entries;
+  /// The same in space (space_interface.cpp).
+  struct Surfaces;
   void drawLines(const BoundaryLine& nonmortar, const BoundaryLine& mortar, const InterfaceOptions& options);
   void setRows(const Entries& entries);
   void assemble(const std::vector<CommonRefinement>& facing, const ContactMesh& nonmortarMesh,
                 const ContactMesh& mortarMesh, const InterfaceOptions& options);
 
+  std::map<PartVertex, int> rowsAsMeshed(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                                         const TriangleTree& tree, const SurfaceRefinement& refinement,
+                                         const InterfaceOptions& options);
+  void assemble(const ContactSurface& nonmortar, const ContactSurface& mortar, const TriangleTree& tree,
+                SurfaceRefinement& refinement, const InterfaceOptions& options,
+                const std::map<PartVertex, int>& rowOf, const std::vector<SpacePoint>& along);
+  void drawSurfaces(ContactSurface nonmortar, ContactSurface mortar, const InterfaceOptions& options);
+  void followLines(const Vector& uNonmortar, const Vector& uMortar, bool keepRows,
+                   const MortarMotion* mortar);
+  void followSurfaces(const Vector& uNonmortar, const Vector& uMortar, bool keepRows,
+                      const MortarMotion* mortar);
+
   int dimension_ = 2;
   std::shared_ptr<const Lines> lines_;  ///< of an interface that follows
+  std::shared_ptr<const Surfaces> surfaces_;
   Vector distanceHere_;
   std::vector<char> faces_;
   std::vector<ContactDirections> directions_;  ///< by nonmortar parts, where it follows

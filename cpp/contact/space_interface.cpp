@@ -10,6 +10,9 @@
 //
 // With friction a row has two beside it for the slip, along the tangents of its node, turned with the normal
 // where that is another one. The mass of their projection is that of the rows times these turns.
+//
+// Where rows follow the bodies all this is done again for the surfaces as moved. Then every vertex that no
+// support holds has its row, which is empty where the vertex faces nothing.
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -46,7 +49,24 @@ Eigen::SparseMatrix<double> rowsOfDistance(CouplingKind kind, const ConstraintRo
   return all.cwiseInverse().asDiagonal() * assembled(C1.rows(), C1.cols() / 3, entries);
 }
 
+/// The rows of a square matrix by those of another one.
+Eigen::SparseMatrix<double> spread(const Eigen::SparseMatrix<double>& rows, const std::vector<int>& rowOf,
+                                   Eigen::Index count) {
+  Triplets entries;
+  forEachEntry(rows, [&](int row, int column, double value) {
+    entries.emplace_back(rowOf[row], rowOf[column], value);
+  });
+  return assembled(count, count, entries);
+}
+
 }  // namespace
+
+struct ContactInterface::Surfaces {
+  ContactSurface nonmortar, mortar;  ///< as drawn
+  InterfaceOptions options;
+  std::map<PartVertex, int> rowOf;
+  std::vector<SpacePoint> along;  ///< by rows: a direction of slip, as drawn
+};
 
 ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
                                    const SpaceContactMesh& mortarMesh, const InterfaceOptions& options)
@@ -58,27 +78,186 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
   if (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1)
     throw InputError(names + ": in space variant = \"weighted\" is known, and for linear displacements " +
                      "\"mortar\" and \"interpolation\"");
-  const int slipRows = options.friction.any() ? 2 : 0;  // of a node
+  C1_.resize(0, 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
+  C2_.resize(0, 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count()));
+  std::set<int> mortarNodes;
+  for (const auto& triangle : mortar.triangles)
+    mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
+  mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
+  const double reach = std::min(nonmortar.extent, mortar.extent);
+  if (options.follows) {
+    drawSurfaces(std::move(nonmortar), std::move(mortar), options);
+    follow(Vector::Zero(C1_.cols()), Vector::Zero(C2_.cols()));
+  } else {
+    const TriangleTree tree(mortar);
+    SurfaceRefinement refinement(nonmortar, mortar, tree);
+    if (refinement.facing.empty()) throw InputError(names + " do not face each other");
+    const std::map<PartVertex, int> rowOf = rowsAsMeshed(nonmortar, mortar, tree, refinement, options);
+    if (rowOf.empty()) refuseWithoutRows(names);
+    assemble(nonmortar, mortar, tree, refinement, options, rowOf, {});
+  }
+  if (rows() == 0) refuseWithoutRows(names);
+  if (!options.gap) {
+    settleDistance(options.initial, reach, names);
+    return;
+  }
+  N_ = rowsOfDistance(pair.coupling, C1_, normals_, nonmortarNodes_);
+  for (int node = 0; node < nonmortarMesh.nodes.count(); ++node)
+    if (N_.col(node).nonZeros() > 0 || points_.traces[0].col(node).nonZeros() > 0)
+      gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
+  distance_ = N_ * givenAt(0);
+  points_.distances = points_.traces[0] * givenAt(0);
+}
 
+/// The rows of a surface as meshed: of each vertex that faces the other one, but for ends that supports hold.
+std::map<PartVertex, int> ContactInterface::rowsAsMeshed(const ContactSurface& nonmortar,
+                                                         const ContactSurface& mortar,
+                                                         const TriangleTree& tree,
+                                                         const SurfaceRefinement& refinement,
+                                                         const InterfaceOptions& options) {
+  const bool interpolates = pair_.coupling == CouplingKind::interpolation;
+  const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
+  const auto held = [&](const auto& each) {
+    return mayMerge && options.nonmortarHeld(each.first.first, refinement.directionAt(each.second));
+  };
+  const bool allHeld = std::ranges::all_of(
+      refinement.vertices, [&](const auto& each) { return !each.second.faces || held(each); });
+  std::map<PartVertex, int> rowOf;
+  for (const auto& each : refinement.vertices) {
+    const auto& [key, vertex] = each;
+    if (!vertex.faces) continue;
+    const SpacePoint n = refinement.directionAt(vertex);
+    const RayHit hit = interpolates ? tree.along(vertex.place, n, refinement.reach) : RayHit();
+    if (interpolates && hit.triangle < 0) continue;
+    if (!allHeld && held(each)) {
+      bool across = true;  // whether the other side is held there too
+      for (int k = 0; k < 3 && interpolates; ++k)
+        across = across && options.mortarHeld &&
+                 (std::abs(hit.mu[k]) < 1e-9 || options.mortarHeld(mortar.triangles[hit.triangle][k], n));
+      if (across) {
+        ++heldEnds_;
+        continue;
+      }
+    }
+    rowOf.emplace(key, static_cast<int>(nonmortarNodes_.size()));
+    nonmortarNodes_.push_back(key.first);
+  }
+  return rowOf;
+}
+
+namespace {
+
+/// The same of the nodes of a surface as drawn, once for all: what is asked may not outlive the interface.
+FixedDirections tableOf(const FixedDirections& fixed, const ContactSurface& surface) {
+  if (!fixed) return {};
+  std::map<int, std::vector<SpacePoint>> table;
+  for (const auto& triangle : surface.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (std::vector<SpacePoint> found = fixed(triangle[k]); !found.empty())
+        table.emplace(triangle[k], std::move(found));
+  return [table = std::move(table)](int node) {
+    const auto found = table.find(node);
+    return found == table.end() ? std::vector<SpacePoint>() : found->second;
+  };
+}
+
+/// Vertices held along the normals of a surface as drawn.
+InterfaceOptions::Held heldAcross(const InterfaceOptions::Held& held, const ContactSurface& surface) {
+  if (!held) return {};
+  std::set<int> nodes;
+  for (size_t t = 0; t < surface.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (held(surface.triangles[t][k], surface.vertexNormals[t][k].n)) nodes.insert(surface.triangles[t][k]);
+  return [nodes = std::move(nodes)](int node, const SpacePoint&) { return nodes.contains(node); };
+}
+
+}  // namespace
+
+void ContactInterface::drawSurfaces(ContactSurface nonmortar, ContactSurface mortar,
+                                    const InterfaceOptions& options) {
+  // Contact acts along the normal of the stiffer body, which hardly bends.
+  const bool own = !(options.stiffness < 1);
+  nonmortar.faceAlongNormals(own);
+  mortar.faceAlongNormals(!own);
+  InterfaceOptions kept = options;
+  kept.nonmortarHeld = {};
+  kept.mortarHeld = heldAcross(options.mortarHeld, mortar);
+  kept.nonmortarFixed = tableOf(options.nonmortarFixed, nonmortar);
+  kept.mortarFixed = tableOf(options.mortarFixed, mortar);
+  auto surfaces =
+      std::make_shared<Surfaces>(Surfaces{std::move(nonmortar), std::move(mortar), std::move(kept), {}, {}});
+  const bool mayMerge = surfaces->nonmortar.degree == 1 && options.nonmortarHeld &&
+                        pair_.coupling != CouplingKind::interpolation;
+  const VertexTable vertices = verticesOf(surfaces->nonmortar);
+  const auto held = [&](const auto& each) {
+    return mayMerge && options.nonmortarHeld(each.first.first, each.second.normal);
+  };
+  const bool allHeld = std::ranges::all_of(vertices, held);
+  for (const auto& each : vertices) {
+    if (!allHeld && held(each)) {
+      ++heldEnds_;
+      continue;
+    }
+    surfaces->rowOf.emplace(each.first, static_cast<int>(nonmortarNodes_.size()));
+    nonmortarNodes_.push_back(each.first.first);
+    surfaces->along.push_back(tangentsTo(each.second.normal)[0]);
+  }
+  std::set<int> nodes;
+  for (const auto& triangle : surfaces->nonmortar.triangles)
+    nodes.insert(triangle.begin(), triangle.begin() + surfaces->nonmortar.perTriangle());
+  nonmortarLine_.assign(nodes.begin(), nodes.end());
+  surfaces_ = std::move(surfaces);
+}
+
+void ContactInterface::followSurfaces(const Vector& u1, const Vector& u2, bool keepRows,
+                                      const MortarMotion* motion) {
+  const auto& [drawnNonmortar, drawnMortar, options, rowOf, drawnAlong] = *surfaces_;
+  const Vector& moved2 = motion != nullptr ? motion->moved : u2;
+  const ContactSurface nonmortar = drawnNonmortar.moved(u1, options.nonmortarFixed);
+  const ContactSurface mortar = drawnMortar.moved(moved2, options.mortarFixed);
+  // Directions of slip turn with the surface.
+  std::vector<SpacePoint> along(drawnAlong.size(), SpacePoint(0, 0, 0));
+  for (size_t t = 0; t < nonmortar.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const auto row = rowOf.find({nonmortar.triangles[t][k], nonmortar.parts[t]}); row != rowOf.end())
+        along[row->second] += nonmortar.turns[t][k] * drawnAlong[row->second];
   const TriangleTree tree(mortar);
-  SurfaceRefinement refinement(nonmortar, mortar, tree);
+  SurfaceRefinement refinement(nonmortar, mortar, tree, true);
+  for (auto& [key, vertex] : refinement.vertices)
+    if (const auto row = rowOf.find(key); keepRows && row != rowOf.end())
+      vertex.faces = faces_[row->second] != 0;
+  assemble(nonmortar, mortar, tree, refinement, options, rowOf, along);
+  if (motion != nullptr) {
+    C2_ = ConstraintRows(C2_ * motion->change);
+    if (hasFriction()) T2_ = ConstraintRows(T2_ * motion->change);
+  }
+  distanceHere_ = distance_;
+  distance_ += jump(u1, u2);
+  for (SurfacePoints* points : {&points_, &nearest_}) {
+    const Matrix jumps = points->jump(u1, u2);
+    for (Eigen::Index i = 0; i < jumps.cols(); ++i)
+      points->distances[i] += points->normals[i].dot(jumps.col(i));
+  }
+}
+
+/// \param rowOf  by vertices; those that do not face the other surface have an empty row
+/// \param slipsAlong  the first direction of slip by rows, nearly; empty: that nearest to an axis
+void ContactInterface::assemble(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                                const TriangleTree& tree, SurfaceRefinement& refinement,
+                                const InterfaceOptions& options, const std::map<PartVertex, int>& rowOf,
+                                const std::vector<SpacePoint>& slipsAlong) {
   const double reach = refinement.reach;
   VertexTable& vertices = refinement.vertices;
+  const int slipRows = options.friction.any() ? 2 : 0;  // of a node
   const auto keyOf = [&](int triangle, int k) {
     return PartVertex{nonmortar.triangles[triangle][k], nonmortar.parts[triangle]};
   };
 
   // Rows.
-  const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
-  const auto held = [&](const PartVertex& key, const VertexFacts& vertex) {
-    return mayMerge && options.nonmortarHeld(key.first, refinement.directionAt(vertex));
-  };
-  const bool allHeld = std::all_of(vertices.begin(), vertices.end(), [&](const auto& each) {
-    return !each.second.faces || held(each.first, each.second);
-  });
-  std::vector<RayHit> hits;
-  std::vector<double> distances;
-  std::vector<SurfaceRow> surfaceRows;
+  const auto rows = static_cast<Eigen::Index>(nonmortarNodes_.size());
+  std::vector<RayHit> hits(rows);
+  std::vector<double> distances(rows, reach);
+  std::vector<std::pair<int, SurfaceRow>> facing;
   constexpr double ofNonmortar = 1.5;  // as little blurs the ends of contact, as much evens out tetrahedra
   const SurfaceSpacing spacing(mortar);
   const SurfaceSpacing ownSpacing(nonmortar);
@@ -87,7 +266,6 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
     for (int k = 0; k < 3 && all; ++k) all = options.mortarHeld(mortar.triangles[hit.triangle][k], n);
     return all;
   };
-  std::vector<double> slips;  // by rows of T, 0 where both sides are fixed
   // The tangents along which a vertex and what faces it are fixed.
   const auto fixedTangents = [&](int node, const RayHit& hit, const SpacePoint& n) {
     constexpr double rounding = 1e-9;
@@ -103,46 +281,39 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
     }
     return fixed;
   };
-  for (auto& [key, vertex] : vertices) {
-    if (!vertex.faces) continue;
+  faces_.assign(rows, 0);
+  normals_.resize(rows);
+  tangents_.resize(slipRows > 0 ? rows : 0);
+  std::vector<double> slips(slipRows * rows, 1);  // by rows of T, 0 where both sides are fixed
+  for (const auto& [key, row] : rowOf) {
+    VertexFacts& vertex = vertices.at(key);
     const SpacePoint n = refinement.directionAt(vertex);
-    const RayHit hit = tree.along(vertex.place, n, reach);
-    if (pair.coupling == CouplingKind::interpolation && hit.triangle < 0) continue;
-    if (!allHeld && held(key, vertex)) {
-      bool across = true;  // whether the other side is held there too
-      for (int k = 0; k < 3 && pair.coupling == CouplingKind::interpolation; ++k)
-        across = across && options.mortarHeld &&
-                 (std::abs(hit.mu[k]) < 1e-9 || options.mortarHeld(mortar.triangles[hit.triangle][k], n));
-      if (across) {
-        ++heldEnds_;
-        continue;
-      }
-    }
-    vertex.rows.emplace_back(static_cast<int>(nonmortarNodes_.size()), 1);
-    nonmortarNodes_.push_back(key.first);
-    normals_.push_back(n);
+    normals_[row] = n;
+    const RayHit hit = vertex.faces ? tree.along(vertex.place, n, reach) : RayHit();
     if (slipRows > 0) {
       const std::vector<SpacePoint> fixed = fixedTangents(key.first, hit, n);
-      tangents_.push_back(fixed.empty() ? tangentsTo(n)
-                                        : std::array<SpacePoint, 2>{fixed[0], n.cross(fixed[0])});
-      for (size_t a = 0; a < 2; ++a) slips.push_back(a < fixed.size() ? 0 : 1);
+      const SpacePoint first = !fixed.empty() ? fixed[0]
+                               : slipsAlong.empty()
+                                   ? tangentsTo(n)[0]
+                                   : SpacePoint(n.cross(slipsAlong[row]).cross(n).normalized());
+      tangents_[row] = {first, n.cross(first)};
+      for (size_t a = 0; a < fixed.size(); ++a) slips[slipRows * row + a] = 0;
     }
-    hits.push_back(hit);
-    distances.push_back(hit.triangle < 0 ? infinity
-                                         : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu));
+    if (!vertex.faces || (pair_.coupling == CouplingKind::interpolation && hit.triangle < 0)) continue;
+    faces_[row] = 1;
+    vertex.rows.emplace_back(row, 1);
+    hits[row] = hit;
+    distances[row] =
+        hit.triangle < 0 ? infinity : mortar.distanceAlong(n, hit.delta * n, hit.triangle, hit.mu);
     const Eigen::Matrix3d opposite = spacing.at(hit);
-    surfaceRows.push_back({vertex.place, n, key.second,
-                           mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : opposite,
-                           opposite + ofNonmortar * ownSpacing.ofVertices(key.first)});
+    facing.push_back({row,
+                      {vertex.place, n, key.second, mortarIsHeld(hit, n) ? Eigen::Matrix3d::Zero() : opposite,
+                       opposite + ofNonmortar * ownSpacing.ofVertices(key.first)}});
   }
   shareFunctions(vertices);
-  const auto rows = static_cast<Eigen::Index>(nonmortarNodes_.size());
-  if (refinement.facing.empty()) throw InputError(names + " do not face each other");
-  if (rows == 0) refuseWithoutRows(names);
-
-  const Eigen::Index columns1 = 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count());
-  const Eigen::Index columns2 = 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count());
-  const bool projects = pair.coupling == CouplingKind::mortar;
+  const Eigen::Index columns1 = C1_.cols();
+  const Eigen::Index columns2 = C2_.cols();
+  const bool projects = pair_.coupling == CouplingKind::mortar;
   Triplets mass, D, M;
   Triplets slipMass, slipD, slipM;
   // The directions of slip of a row where the normal is n.
@@ -237,7 +408,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
       distance[row] += parts.row(i).dot(apart);
       least[row] = std::min(least[row], nearest);
       const Eigen::RowVector3d products = parts.row(i) * hats;
-      for (Eigen::Index j = 0; j < count && pair.coupling != CouplingKind::weighted; ++j) {
+      for (Eigen::Index j = 0; j < count && pair_.coupling != CouplingKind::weighted; ++j) {
         const double entry = products.dot(parts.row(j));
         mass.emplace_back(row, own[j], entry);
         if (!projects) continue;
@@ -261,15 +432,23 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
       for (int a = 0; a < slipRows; ++a) addJump(slipD, slipM, slipRow(row, a), tangentAt(row, a, n));
     }
   }
-  const std::array<int, 2> nodes{nonmortarMesh.nodes.count(), mortarMesh.nodes.count()};
+  for (int row = 0; row < rows; ++row) {  // no force has a pressure there
+    if (lengths_[row] == 0 && pair_.coupling != CouplingKind::interpolation) faces_[row] = 0;
+    if (hasMeans(pair_.coupling) && faces_[row] != 0) mass.emplace_back(row, row, lengths_[row]);
+    if (faces_[row] != 0) continue;
+    mass.emplace_back(row, row, 1);
+    for (int a = 0; a < slipRows; ++a) slipMass.emplace_back(slipRow(row, a), slipRow(row, a), 1);
+    distances[row] = distance[row] = least[row] = reach;
+  }
+  const std::array<int, 2> nodes{static_cast<int>(columns1) / 3, static_cast<int>(columns2) / 3};
   points_ = points.assembled(nodes, rows);
   nearest_ = nearestPoints.assembled(nodes, rows);
   overlap_ = points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
-  if (pair.coupling == CouplingKind::weighted) {
-    const Vector inverse = lengths_.cwiseInverse();  // products copy an expression for each column
-    mass_ = Eigen::SparseMatrix<double>(lengths_.asDiagonal());
-    weights_ = lengths_;
+  if (pair_.coupling == CouplingKind::weighted) {
+    mass_ = assembled(rows, rows, mass);
+    weights_ = mass_.diagonal();
+    const Vector inverse = weights_.cwiseInverse();  // products copy an expression for each column
     C1_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns1, D);
     C2_ = inverse.asDiagonal() * assembled<ConstraintRows>(rows, columns2, M);
     const Vector ofSlips = inverse.transpose().replicate(slipRows, 1).reshaped();
@@ -281,6 +460,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
     weights_ = mass_ * Vector::Ones(rows);
     Triplets own, opposite, slipOwn, slipOpposite;
     for (int row = 0; row < rows; ++row) {
+      if (faces_[row] == 0) continue;
       const auto addNode = [&](Triplets& nonmortarRows, Triplets& mortarRows, int at,
                                const SpacePoint& along) {
         add(nonmortarRows, at, nonmortarNodes_[row], 1, along);
@@ -298,7 +478,8 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
     if (!projects) {
       const Vector exact = assembled<ConstraintRows>(rows, columns2, M).transpose() * Vector::Ones(rows);
       const Vector off = C2_.transpose() * weights_ - exact;
-      patchError_ = off.cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+      const double largest = exact.cwiseAbs().maxCoeff();
+      patchError_ = largest > 0 ? off.cwiseAbs().maxCoeff() / largest : 0;
     }
     if (projects) {
       using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
@@ -332,29 +513,24 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
     *T = Eigen::Map<const Vector>(slips.data(), T->rows()).asDiagonal() * *T;
     T->prune(0.0);
   }
-  if (pair.coupling != CouplingKind::interpolation) {
-    PressureCompliance yielding = pressureCompliance(surfaceRows, lengths_, options.mortarCompliance);
+  if (pair_.coupling != CouplingKind::interpolation) {
+    std::vector<int> pressable;
+    std::vector<SurfaceRow> surfaceRows;
+    for (const auto& [row, facts] : facing) {
+      if (faces_[row] == 0) continue;
+      pressable.push_back(row);
+      surfaceRows.push_back(facts);
+    }
+    const Vector areas = lengths_(pressable);
+    const PressureCompliance yielding = pressureCompliance(surfaceRows, areas, options.mortarCompliance);
     stabilised_ = options.stabilised;
-    if (options.stabilised) compliance_ = std::move(yielding.S);
-    means_ = std::move(yielding.means);
-    fits_ = linearFits(surfaceRows, lengths_);
-    mortarSpacing_ = std::move(yielding.spacing);
+    if (options.stabilised) compliance_ = spread(yielding.S, pressable, rows);
+    means_ = spread(yielding.means, pressable, rows);
+    fits_ = spread(linearFits(surfaceRows, areas), pressable, rows);
+    mortarSpacing_ = Vector::Zero(rows);
+    mortarSpacing_(pressable) = yielding.spacing;
   }
-  std::set<int> mortarNodes;
-  for (const auto& triangle : mortar.triangles)
-    mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
-  mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
-  if (!options.gap) {
-    sagitta_ = visibleError(errors);
-    settleDistance(options.initial, reach, names);
-    return;
-  }
-  N_ = rowsOfDistance(pair.coupling, C1_, normals_, nonmortarNodes_);
-  for (int node = 0; node < nonmortarMesh.nodes.count(); ++node)
-    if (N_.col(node).nonZeros() > 0 || points_.traces[0].col(node).nonZeros() > 0)
-      gapNodes_.emplace_back(node, nonmortarMesh.nodes.places[node]);
-  distance_ = N_ * givenAt(0);
-  points_.distances = points_.traces[0] * givenAt(0);
+  if (!options.gap) sagitta_ = visibleError(errors);
 }
 
 }  // namespace mortier

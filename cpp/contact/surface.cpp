@@ -289,7 +289,7 @@ void shareFunctions(VertexTable& vertices) {
 }
 
 SurfaceRefinement::SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar,
-                                     const TriangleTree& tree)
+                                     const TriangleTree& tree, bool continuous)
     : reach(std::min(nonmortar.extent, mortar.extent)),
       directions(nonmortar.normals),
       vertices(verticesOf(nonmortar)),
@@ -300,8 +300,9 @@ SurfaceRefinement::SurfaceRefinement(const ContactSurface& nonmortar, const Cont
     const auto& [a, b, c] = nonmortar.places[t];
     const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
     const auto triangle = static_cast<int>(t);
+    if (continuous) directions[t] = nonmortar.normalAt(triangle, middle);
     if (const double curvature = plane_ ? 0 : nonmortar.curvatureAt(triangle, middle); curvature > 0)
-      directions[t] = tree.contactDirection((a + b + c) / 3, nonmortar.normals[t], curvature, reach, false);
+      directions[t] = tree.contactDirection((a + b + c) / 3, directions[t], curvature, reach, continuous);
   }
   forEachFacing(nonmortar, mortar, directions, reach, [&](const FacingTriangles& each) {
     // A triangle that does not look at the plane faces nothing.

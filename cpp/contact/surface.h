@@ -17,6 +17,12 @@
 
 namespace mortier {
 
+/// A vertex of a surface, as one of its smooth parts has it.
+using PartVertex = std::pair<int, int>;  // vertex, part
+
+/// Unit vectors along which a node never moves, as in planes of symmetry.
+using FixedDirections = std::function<std::vector<SpacePoint>(int node)>;
+
 struct ContactSurface {
   /// \throws InputError when the mesh does not have the label.
   ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label);
@@ -32,6 +38,15 @@ struct ContactSurface {
   double area = 0;                                ///< [m^2]
   double extent = 0;                              ///< largest of the bounding box [m]
   bool planar = false;                            ///< whether all normals are one
+  /// By triangles and vertices of a surface that has moved: the gradient of its place, which makes of the
+  /// normal of the triangle as drawn its normal.
+  std::vector<std::array<Eigen::Matrix3d, 3>> turns;
+
+  /// Where displacements, by dofs of its mesh, have moved it [m]. Normals turn with the triangles, and so does
+  /// the curved surface over them; by quadratic traces it bends. Extent and curvatures stay those as drawn.
+  [[nodiscard]] ContactSurface moved(const Vector& u, const FixedDirections& fixed) const;
+  /// Makes the normals of one surface the directions of contact, of this one or of the other.
+  void faceAlongNormals(bool own);
 
   [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
   /// Of the curved surface at a point of a triangle, by its barycentric coordinates.
@@ -148,9 +163,6 @@ class TriangleTree {
   Eigen::KdBVH<double, 3, int> tree_;
 };
 
-/// A vertex of the nonmortar surface, as one of its smooth parts has it.
-using PartVertex = std::pair<int, int>;  // vertex, part
-
 struct VertexFacts {
   SpacePoint place, normal;
   double curvature = 0;
@@ -173,7 +185,9 @@ void shareFunctions(VertexTable& vertices);
 /// the plane, on which alone the distance depends.
 struct SurfaceRefinement {
   /// The tree is that of the mortar surface; all must outlive it.
-  SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar, const TriangleTree& tree);
+  /// \param continuous  directions change continuously with the places: those of the curved surfaces
+  SurfaceRefinement(const ContactSurface& nonmortar, const ContactSurface& mortar, const TriangleTree& tree,
+                    bool continuous = false);
 
   /// Along which a vertex of the nonmortar surface faces the other.
   [[nodiscard]] SpacePoint directionAt(const VertexFacts& vertex) const;

@@ -41,7 +41,7 @@ struct InitialStress {
 /// space along x, y, z and by angles about these axes. Its displacements are those of linear theory,
 /// u = theta x (x - at): rows of contact keep their normals, so that a disc that turns about its centre stays
 /// where it is. Where contact follows it and it may turn, they stand for the motions, and its nodes are where
-/// a rotation by theta takes them (Body::moved).
+/// a rotation by theta, in space by the vector of the angles, takes them (Body::moved).
 struct RigidMotion {
   SpacePoint at;                     ///< z = 0 in the plane [m]
   std::vector<Datum> held;           ///< [m] and [rad], functions of time; empty where the motion is free
@@ -183,7 +183,7 @@ class Body {
   [[nodiscard]] bool turns() const { return rigid() && conditions_.rigid->turns; }
   /// By what its nodes are moved (dofs), where it turns; else by the displacement itself.
   [[nodiscard]] Vector moved(const Vector& displacement) const;
-  /// d moved(u) / du for u that are rigid: dofs x dofs, the rows of some nodes, from two of these nodes.
+  /// d moved(u) / du for u that are rigid: dofs x dofs, the rows of some nodes, from two or three of these.
   [[nodiscard]] Eigen::SparseMatrix<double> changeOfMoved(const Vector& displacement,
                                                           const std::vector<int>& nodes) const;
 
@@ -293,6 +293,7 @@ class Body {
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   std::optional<VolumePatches> patches_;
   // Of a rigid body: its motions by dofs, those that are free, and what finds them of a rigid displacement.
+  [[nodiscard]] SpacePoint turnOf(const Vector& motion) const;
   Matrix motions_, freeMotions_, toMotion_;
   double largestGradient_ = 0;
   double extent_ = 0;

@@ -71,42 +71,83 @@ Vector Body::heldForce(const Vector& nodal) const {
   return force;
 }
 
+namespace {
+
+/// x -> t x x
+Eigen::Matrix3d crossed(const SpacePoint& t) {
+  return Eigen::Matrix3d{{0, -t.z(), t.y()}, {t.z(), 0, -t.x()}, {-t.y(), t.x(), 0}};
+}
+
+/// A rotation by a vector t, and what its change dt turns by: d(R x) = (T dt) x R x.
+struct Rotation {
+  explicit Rotation(const SpacePoint& t) {
+    const double angle = t.norm();
+    const Eigen::Matrix3d axis = crossed(angle > 0 ? SpacePoint(t / angle) : SpacePoint(0, 0, 0));
+    const double versine = 2 * std::pow(std::sin(angle / 2), 2);
+    lessIdentity = std::sin(angle) * axis + versine * axis * axis;
+    if (angle > 0) change += versine / angle * axis + (1 - std::sin(angle) / angle) * axis * axis;
+  }
+  Eigen::Matrix3d lessIdentity;  ///< R - 1
+  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
+};
+
+}  // namespace
+
+SpacePoint Body::turnOf(const Vector& motion) const {
+  return dimension() == 3 ? SpacePoint(motion.tail<3>()) : SpacePoint(0, 0, motion[2]);
+}
+
 Vector Body::moved(const Vector& displacement) const {
   if (!turns()) return displacement;
+  const int n = dimension();
   const Vector motion = motionOf(displacement);
-  const Point at = conditions_.rigid->at.head<2>();
-  const double versine = 2 * std::pow(std::sin(motion[2] / 2), 2);
-  const Eigen::Matrix2d turn{{-versine, -std::sin(motion[2])}, {std::sin(motion[2]), -versine}};
+  const Rotation rotation(turnOf(motion));
   Vector u(dofs());
   for (int node = 0; node < nodes(); ++node)
-    u.segment<2>(2 * node) = motion.head<2>() + turn * (nodes_.places[node] - at);
+    u.segment(n * node, n) =
+        motion.head(n) + (rotation.lessIdentity * (placeOfNode(node) - conditions_.rigid->at)).head(n);
   return u;
 }
 
-// The reference point moves as node A less the angle times its arm, and the angle is the difference of A and
-// B across their distance: what acts on the nodes becomes forces at A and B of the same resultant and moment.
+// Motions are linear in the displacements of two nodes, in space of three that lie on no line: what acts on
+// all nodes becomes forces at these of the same resultant and moment.
 Eigen::SparseMatrix<double> Body::changeOfMoved(const Vector& displacement,
                                                 const std::vector<int>& nodes) const {
-  const std::vector<Point>& x = nodes_.places;
-  const int a = nodes.front();
-  const int b = *std::max_element(nodes.begin(), nodes.end(), [&](int one, int other) {
-    return (x[one] - x[a]).squaredNorm() < (x[other] - x[a]).squaredNorm();
-  });
-  const Point at = conditions_.rigid->at.head<2>();
-  const Point across = x[b] - x[a];
-  const Point angle = turned(across) / across.squaredNorm();
-  const Vector motion = motionOf(displacement);
-  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(motion[2]).toRotationMatrix();
-  Triplets entries;
-  const auto add = [&](int node, int of, const Eigen::Matrix2d& by) {
-    for (const int row : {0, 1})
-      for (const int column : {0, 1}) entries.emplace_back(2 * node + row, 2 * of + column, by(row, column));
+  const int n = dimension();
+  const auto farthest = [&](auto&& distance) {
+    return *std::max_element(nodes.begin(), nodes.end(),
+                             [&](int one, int other) { return distance(one) < distance(other); });
   };
+  const auto way = [&](int from, int to) { return SpacePoint(placeOfNode(to) - placeOfNode(from)); };
+  std::vector<int> few{nodes.front()};
+  few.push_back(farthest([&](int node) { return way(few[0], node).norm(); }));
+  if (n == 3)
+    few.push_back(farthest([&](int node) { return way(few[0], few[1]).cross(way(few[0], node)).norm(); }));
+  const SpacePoint& at = conditions_.rigid->at;
+  const Eigen::Index motions = motions_.cols();
+  Matrix ofFew(n * few.size(), motions);
+  for (size_t i = 0; i < few.size(); ++i)
+    ofFew.middleRows(n * static_cast<Eigen::Index>(i), n) =
+        motions_.middleRows(static_cast<Eigen::Index>(n) * few[i], n);
+  Vector scale = Vector::Ones(motions);
+  scale.tail(motions - n).setConstant(extent_);
+  const Matrix toMotion =
+      scale.cwiseInverse().asDiagonal() *
+      Matrix((ofFew * scale.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().pseudoInverse());
+  const Rotation rotation(turnOf(motionOf(displacement)));
+  Triplets entries;
   for (const int node : nodes) {
-    const Point arm = rotation * (x[node] - at) - (x[a] - at);
-    const Eigen::Matrix2d byAngle = turned(arm) * angle.transpose();
-    add(node, a, Eigen::Matrix2d::Identity() - byAngle);
-    add(node, b, byAngle);
+    const SpacePoint arm = placeOfNode(node) - at + rotation.lessIdentity * (placeOfNode(node) - at);
+    const Eigen::Matrix3d byTurn = -crossed(arm) * rotation.change;
+    Matrix change(n, motions);
+    change.leftCols(n).setIdentity();
+    change.rightCols(motions - n) = n == 3 ? Matrix(byTurn) : Matrix(byTurn.col(2).head(n));
+    const Matrix entriesOf = change * toMotion;
+    for (size_t i = 0; i < few.size(); ++i)
+      for (int row = 0; row < n; ++row)
+        for (int column = 0; column < n; ++column)
+          entries.emplace_back(n * node + row, n * few[i] + column,
+                               entriesOf(row, n * static_cast<Eigen::Index>(i) + column));
   }
   return assembled(dofs(), dofs(), entries);
 }

@@ -160,7 +160,7 @@ double alternationOf(const ContactInterface& interface, const std::vector<Point>
 /// The moment of the contact forces that the motion of their places makes beside what it is where the places
 /// move alike, over that of friction: equilibrium is that of places as drawn [-].
 double momentOfMotion(const ContactInterface& interface, const Body& body, const State& state, size_t k) {
-  const auto cross = [](const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); };
+  const int n = body.dimension();
   Vector friction = Vector::Zero(body.dofs());
   forEachEntry(interface.T1(),
                [&](int row, int dof, double value) { friction[dof] += value * state.frictionForce[k][row]; });
@@ -168,23 +168,27 @@ double momentOfMotion(const ContactInterface& interface, const Body& body, const
   forEachEntry(interface.C1(),
                [&](int row, int dof, double value) { force[dof] += value * state.contactForce[k][row]; });
   const Vector& u = state.bodies[interface.pair().nonmortar.body].displacement;
-  const auto at = [](const Vector& of, int node) { return Point(of.segment<2>(Eigen::Index{2} * node)); };
+  const auto at = [&](const Vector& of, int node) {
+    SpacePoint vector(0, 0, 0);
+    vector.head(n) = of.segment(n * node, n);
+    return vector;
+  };
   double size = 0;
-  Point place(0, 0);
-  Point moved(0, 0);
+  SpacePoint place(0, 0, 0);
+  SpacePoint moved(0, 0, 0);
   for (int node = 0; node < body.nodes(); ++node) {
     const double weight = at(force, node).norm();
     size += weight;
-    place += weight * body.placeOfNode(node).head<2>();
+    place += weight * body.placeOfNode(node);
     moved += weight * at(u, node);
   }
-  double moment = 0;
+  SpacePoint moment(0, 0, 0);
   double ofFriction = 0;
   for (int node = 0; node < body.nodes() && size > 0; ++node) {
-    moment += cross(at(u, node) - moved / size, at(force, node));
-    ofFriction += (body.placeOfNode(node).head<2>() - place / size).norm() * at(friction, node).norm();
+    moment += (at(u, node) - moved / size).cross(at(force, node));
+    ofFriction += (body.placeOfNode(node) - place / size).norm() * at(friction, node).norm();
   }
-  return ofFriction > 0 ? std::abs(moment) / ofFriction : 0;
+  return ofFriction > 0 ? moment.norm() / ofFriction : 0;
 }
 
 }  // namespace

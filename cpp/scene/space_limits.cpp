@@ -18,10 +18,8 @@ void requireKnown(const BodyDescription& body, int degree) {
 }
 
 void requireKnown(const ContactDescription& contact, int degree) {
-  const std::string where = contact.where + ": contact";
-  if (contact.sliding == SlidingKind::finite) refuse(where, "sliding = \"finite\"");
   if (degree == 1 || contact.variant == CouplingKind::weighted) return;
-  throw InputError(where + ": variant = \"" + word(contact.variant) +
+  throw InputError(contact.where + ": contact: variant = \"" + word(contact.variant) +
                    "\", expected \"weighted\" with degree = 2: in space the integral of a quadratic vertex "
                    "function over a triangle is zero");
 }

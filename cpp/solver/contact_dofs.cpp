@@ -96,9 +96,11 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
   // Those of lines that follow come first: their order depends on no place where the bodies were.
   for (const ContactInterface& interface : model.interfaces) {
     if (!interface.follows()) continue;
+    const int dimension = of.dimension();
     const auto addLine = [&](const std::vector<int>& nodes) {
       for (const int node : nodes)
-        for (const int c : {0, 1}) add(takesDofs(of) ? 2 * node + c : of.equations()[2 * node + c]);
+        for (int dof = dimension * node; dof < dimension * (node + 1); ++dof)
+          add(takesDofs(of) ? dof : of.equations()[dof]);
     };
     if (interface.pair().nonmortar.body == body) addLine(interface.nonmortarLine());
     if (interface.pair().mortar.body == body) addLine(interface.mortarNodes());

@@ -87,7 +87,13 @@ std::optional<FrictionSolution> FrictionSystem::newtonInSpace(FrictionSets sets)
   for (int solve = 0, vain = 0; solve < most && vain < patience; ++solve) {
     const std::optional<FrictionSolution> trial = solveInSpace(sets);
     if (!trial) return std::nullopt;
-    if (residual(*trial) <= roundingOfForces) return clipped(*trial);
+    if (const double off = residual(*trial); off <= roundingOfForces) {
+      // Beside wide gaps that may be much of the forces, where directions still turn.
+      const double ofForces = offLaw(*trial).lpNorm<Eigen::Infinity>();
+      if (!(ofForces > roundingOfForces * trial->force.lpNorm<Eigen::Infinity>())) return clipped(*trial);
+      const std::optional<FrictionSolution> again = solveInSpace(next(*trial));
+      return clipped(again && residual(*again) < off ? *again : *trial);
+    }
     FrictionSolution ahead = *trial;
     double size = sizeOff(ahead);
     if (!std::isfinite(size)) return std::nullopt;

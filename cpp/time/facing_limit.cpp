@@ -63,7 +63,7 @@ std::string nearFacingLimit(const Model& model, const State& state) {
   std::string text;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    if (!interface.follows()) continue;
+    if (!interface.follows() || interface.dimension() == 3) continue;
     const auto& [nonmortar, mortar, coupling] = interface.pair();
     const Body& body = model.bodies[nonmortar.body];
     const Vector& u = state.bodies[nonmortar.body].displacement;

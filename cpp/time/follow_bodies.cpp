@@ -37,12 +37,24 @@ double misfit(const Model& model, const std::vector<Vector>& gap0, const Iterate
     for (Eigen::Index i = 0; i < gap[k].size(); ++i, ++row)
       add(iterate.active[k][i] != 0 ? std::abs(gap[k][i]) : gap[k][i], row);
   }
-  for (size_t k = 0; k < slip.size(); ++k)
-    for (Eigen::Index i = 0; i < slip[k].size(); ++i, ++row) {
-      const int sign = iterate.slipping[k][i];
-      const bool bears = iterate.contactForce[k][i] > 0 || model.interfaces[k].friction().limit > 0;
-      if (bears) add(sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i], row);
+  for (size_t k = 0; k < slip.size(); ++k) {
+    const int m = model.interfaces[k].slipComponents();
+    const Vector bound = model.interfaces[k].frictionBound(iterate.contactForce[k]);
+    for (Eigen::Index i = 0; m * i < slip[k].size(); ++i, row += m) {
+      if (!(bound[i] > 0)) continue;
+      const auto slipped = slip[k].segment(m * i, m);
+      if (iterate.slipping[k][i] == 0) {
+        add(slipped.norm(), row);
+        continue;
+      }
+      const Vector direction = iterate.frictionForce[k].segment(m * i, m) / bound[i];
+      const double forwards = direction.dot(slipped);
+      add(-forwards, row);
+      // Across it a force turns with the slip.
+      const double aside = (slipped - forwards * direction).norm();
+      if (aside > rounding) off = std::max(off, aside / (compliance[row] + slipped.norm() / bound[i]));
     }
+  }
   if (off == 0) return 0;
   return force > 0 ? off / force : std::numeric_limits<double>::infinity();
 }
@@ -52,9 +64,12 @@ double roundingOfPlaces(const Model& model, const std::vector<Vector>& u) {
   constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
   double largest = 0;
   for (size_t b = 0; b < u.size(); ++b)
-    for (Eigen::Index node = 0; node < model.bodies[b].nodes(); ++node)
-      largest = std::max(largest, (model.bodies[b].elementNodes().places[node] + u[b].segment<2>(2 * node))
-                                      .lpNorm<Eigen::Infinity>());
+    model.bodies[b].withMesh([&](const auto&, const auto& nodes) {
+      const Eigen::Index n = nodes.places.front().size();
+      for (Eigen::Index node = 0; node < nodes.count(); ++node)
+        largest = std::max(
+            largest, (nodes.places[node] + u[b].segment(n * node, n)).template lpNorm<Eigen::Infinity>());
+    });
   return roundings * largest;
 }
 

@@ -1,8 +1,10 @@
 #include "time/measure.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "base/parallel.h"
 #include "base/worst.h"
@@ -127,19 +129,27 @@ Sliding slidingOf(const Model& model, const State& state, size_t interface) {
 
 Deformation deformationOf(const Body& body, const Vector& displacement) {
   Deformation most;
-  const TriangleMesh& mesh = body.mesh();
-  for (const auto& [a, b, c] : mesh.triangles) {
-    Eigen::Matrix2d edges;
-    Eigen::Matrix2d changes;
-    edges << mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a];
-    changes << displacement.segment<2>(2 * b) - displacement.segment<2>(2 * a),
-        displacement.segment<2>(2 * c) - displacement.segment<2>(2 * a);
-    const Eigen::Matrix2d gradient = changes * edges.inverse();
-    const double mean = gradient.trace() / 2;
-    const double shear = std::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0)) / 2;
-    most.strain = std::max(most.strain, std::abs(mean) + shear);
-    most.rotation = std::max(most.rotation, std::abs(gradient(1, 0) - gradient(0, 1)) / 2);
-  }
+  const auto add = [&](const auto& x, const auto& elements) {
+    constexpr int n = std::remove_cvref_t<decltype(x.front())>::RowsAtCompileTime;
+    using Gradient = Eigen::Matrix<double, n, n>;
+    for (const auto& element : elements) {
+      Gradient edges, changes;
+      for (int k = 0; k < n; ++k) {
+        edges.col(k) = x[element[k + 1]] - x[element[0]];
+        changes.col(k) = displacement.template segment<n>(n * element[k + 1]) -
+                         displacement.template segment<n>(n * element[0]);
+      }
+      const Gradient gradient = changes * edges.inverse();
+      const Gradient strain = (gradient + gradient.transpose()) / 2;
+      const Eigen::SelfAdjointEigenSolver<Gradient> principal(strain, Eigen::EigenvaluesOnly);
+      most.strain = std::max(most.strain, principal.eigenvalues().cwiseAbs().maxCoeff());
+      most.rotation = std::max(most.rotation, (gradient - strain).norm() / M_SQRT2);
+    }
+  };
+  if (body.space() != nullptr)
+    add(body.space()->mesh().vertices, body.space()->mesh().tetrahedra);
+  else
+    add(body.mesh().vertices, body.mesh().triangles);
   return most;
 }
 

@@ -48,6 +48,8 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
   const std::vector<SpacePointInside> found =
       pointsInside(places.surfaces[one], places.surfaces[other], places.rounding);
   if (found.empty()) return {};
+  const bool follows =
+      std::ranges::any_of(contacts, [](const Between& contact) { return contact.interface->follows(); });
   Region region;
   for (const SpacePointInside& point : found) {
     const size_t own = point.of == 0 ? one : other;
@@ -83,7 +85,7 @@ std::vector<OverlapCheck::Region> OverlapCheck::inSpace(size_t one, size_t other
     const double turn = std::max(angle(n, -movedAcross.normal(point.across)),
                                  angle(drawnAcross.normal(point.across), -moved.normal(point.triangle)));
     // Surfaces that do not face each other have no rows whose directions could be off.
-    const double slide = turn > sharpTurn ? 0 : slip > sample.size ? infinity : slip * turn;
+    const double slide = follows || turn > sharpTurn ? 0 : slip > sample.size ? infinity : slip * turn;
     sample.always =
         places.residual + places.rounding + asked + overlap::chords * chords + overlap::sliding * slide;
     const double curvature = smoothTurn(drawn, point.triangle, false) / size +

@@ -84,8 +84,9 @@ steps = {rng.choice([10, 20, 40])}
 """
 
 
-def examined(program, seed):
-    run = solve(program, scene(seed), "--quiet", "--threads", "1", patience=300)
+def slid(program, text):
+    """What was found of a scene, and the complaints about it."""
+    run = solve(program, text, "--quiet", "--threads", "1", patience=300)
     solves = [int(row["iterations"]) for row in run.history if int(row["step"]) > 0]
     shown = f"{run.end}, {len(solves)} steps"
     if solves:
@@ -96,6 +97,10 @@ def examined(program, seed):
     if run.code == 0 and max(verified[key] for key in CERTIFIED if key in verified) > 1e-8:
         return shown, [f"not certified, {verified}"]
     return shown, []
+
+
+def examined(program, seed):
+    return slid(program, scene(seed))
 
 
 if __name__ == "__main__":

@@ -260,7 +260,7 @@ DIFFERENT = {
     "body.boundary.ut": refused(NOT_IN_SPACE, "body.upper.boundary.3.ut=0"),
     "contact.friction": added("contact.friction=0.3"),
     "contact.shear_limit": added("contact.shear_limit=0.3"),
-    "contact.sliding": refused('sliding = "finite"', "contact.sliding=finite"),
+    "contact.sliding": added("contact.sliding=finite"),
     "quantity.friction_work": either("quantity", *(f"[{{name='floor', {text}}}]" for text in (
         "friction_work={body='upper', label=1}", "work={body='upper'}")), "contact.friction=0.3"),
     "quantity.contact_length": refused("contact_area with dimension = 3",
