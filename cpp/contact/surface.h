@@ -42,8 +42,8 @@ struct ContactSurface {
   /// normal of the triangle as drawn its normal.
   std::vector<std::array<Eigen::Matrix3d, 3>> turns;
 
-  /// Where displacements, by dofs of its mesh, have moved it [m]. Normals turn with the triangles, and so does
-  /// the curved surface over them; by quadratic traces it bends. Extent and curvatures stay those as drawn.
+  /// Where displacements, by dofs of its mesh, have moved it [m]. Normals and the curved surface turn with
+  /// the triangles; quadratic traces bend them. Extent and curvatures stay those as drawn.
   [[nodiscard]] ContactSurface moved(const Vector& u, const FixedDirections& fixed) const;
   /// Makes the normals of one surface the directions of contact, of this one or of the other.
   void faceAlongNormals(bool own);

@@ -135,8 +135,8 @@ Model dragged() {
   return following(std::move(upper), std::move(lower), CouplingKind::weighted, upperBody, 0.4, 0.5);
 }
 
-// The support's work is the change of the elastic energy and friction's, each with its own rows at both ends of
-// a step.
+// The support's work is the change of the elastic energy and friction's, each with its own rows at both ends
+// of a step.
 TEST(SlidingInSpace, energyIsKept) {
   const Model model = dragged();
   const auto energyOf = [&](const State& state) {
