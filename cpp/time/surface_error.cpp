@@ -47,8 +47,7 @@ void MeshErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
     const std::array<int, 2> elements{elementOf(0, i), elementOf(1, i)};
     const Compliance compliance =
         complianceOf(state, nonmortar.body, elements[0]) + complianceOf(state, mortar.body, elements[1]);
-    const Body& across = model_.bodies[mortar.body];
-    const double ofMortar = across.rigid() ? 0 : points.sizes[1][i] / across.degree();
+    const double ofMortar = points.sizes[1][i] / model_.bodies[mortar.body].degree();
     const size_t coarser = ofMortar > points.sizes[0][i] ? 1 : 0;
     double energy = compliance.elastic / (compliance.all * compliance.all) * gap * gap /
                     std::max(points.sizes[0][i], ofMortar);
