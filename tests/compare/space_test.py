@@ -90,7 +90,7 @@ class Space(InFolder):
                 ("plane=strain", "plane = \"strain\", expected none with dimension = 3"),
                 ("accuracy={energy=0.1, bound=true}", "bound = true, expected none with dimension = 3"),
                 ('accuracy={quantity="floor", tolerance=0.1}', 'quantity = "floor", expected'),
-                ("contact.sliding=finite", "sliding = \"finite\", expected none"),
+                ("solver.method=penalty-duality", "penalty-duality"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
                 ("body.upper.boundary.top.tz=w", "expected an expression in x, y, z, t"),
