@@ -7,6 +7,7 @@
 
 #include "base/digits.h"
 #include "base/error.h"
+#include "contact/end_rows.h"
 #include "contact/interface_entries.h"
 #include "mesh/triangle_mesh.h"
 

@@ -18,7 +18,6 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -101,9 +100,6 @@ struct MortarMotion {
 };
 
 struct ContactSurface;
-class TriangleTree;
-struct SurfaceRefinement;
-using PartVertex = std::pair<int, int>;
 
 class ContactInterface {
  public:
@@ -265,19 +261,16 @@ class ContactInterface {
   struct Lines;
   /// Matrices while they are put together.
   struct Entries;
-  /// The same in space (space_interface.cpp).
+  /// The same in space (follow_surfaces.cpp), and what is put together there.
   struct Surfaces;
+  struct RefinedSurfaces;
   void drawLines(const BoundaryLine& nonmortar, const BoundaryLine& mortar, const InterfaceOptions& options);
   void setRows(const Entries& entries);
   void assemble(const std::vector<CommonRefinement>& facing, const ContactMesh& nonmortarMesh,
                 const ContactMesh& mortarMesh, const InterfaceOptions& options);
 
-  std::map<PartVertex, int> rowsAsMeshed(const ContactSurface& nonmortar, const ContactSurface& mortar,
-                                         const TriangleTree& tree, const SurfaceRefinement& refinement,
-                                         const InterfaceOptions& options);
-  void assemble(const ContactSurface& nonmortar, const ContactSurface& mortar, const TriangleTree& tree,
-                SurfaceRefinement& refinement, const InterfaceOptions& options,
-                const std::map<PartVertex, int>& rowOf, const std::vector<SpacePoint>& along);
+  void findRows(RefinedSurfaces& surfaces, const InterfaceOptions& options);
+  void assemble(RefinedSurfaces& surfaces, const InterfaceOptions& options);
   void drawSurfaces(ContactSurface nonmortar, ContactSurface mortar, const InterfaceOptions& options);
   void followLines(const Vector& uNonmortar, const Vector& uMortar, bool keepRows,
                    const MortarMotion* mortar);

@@ -1,11 +1,13 @@
 // What an interface as meshed and one that follows the bodies have in common while they are put together.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "contact/interface.h"
+#include "contact/surface.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
@@ -21,6 +23,25 @@ struct ContactInterface::Entries {
 
   /// \param rowOf  by rows of the coupling
   void add(const Coupling& coupling, const CommonRefinement& refinement, const std::vector<int>& rowOf);
+};
+
+/// Two surfaces, as meshed or moved, and their rows.
+struct ContactInterface::RefinedSurfaces {
+  /// Both surfaces must outlive it. \param continuous  SurfaceRefinement
+  RefinedSurfaces(const ContactSurface& nonmortarSurface, const ContactSurface& mortarSurface,
+                  bool continuous)
+      : nonmortar(nonmortarSurface),
+        mortar(mortarSurface),
+        tree(mortarSurface),
+        refinement(nonmortarSurface, mortarSurface, tree, continuous) {}
+
+  const ContactSurface& nonmortar;
+  const ContactSurface& mortar;
+  TriangleTree tree;
+  SurfaceRefinement refinement;
+  std::map<PartVertex, int> rowOf;  ///< rows of vertices that do not face the other surface are empty
+  /// The first direction of slip by rows, nearly; empty: that nearest to an axis.
+  std::vector<SpacePoint> slipsAlong;
 };
 
 /// Both sides in a message, `a.mesh label 1 "bottom" and b.mesh label 3 "top"`.

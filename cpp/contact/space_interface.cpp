@@ -17,7 +17,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/error.h"
 #include "base/quadrature_rules.h"
@@ -61,13 +60,6 @@ Eigen::SparseMatrix<double> spread(const Eigen::SparseMatrix<double>& rows, cons
 
 }  // namespace
 
-struct ContactInterface::Surfaces {
-  ContactSurface nonmortar, mortar;  ///< as drawn
-  InterfaceOptions options;
-  std::map<PartVertex, int> rowOf;
-  std::vector<SpacePoint> along;  ///< by rows: a direction of slip, as drawn
-};
-
 ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
                                    const SpaceContactMesh& mortarMesh, const InterfaceOptions& options)
     : dimension_(3), pair_(pair), friction_(options.friction), given_(options.gap) {
@@ -80,21 +72,17 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
                      "\"mortar\" and \"interpolation\"");
   C1_.resize(0, 3 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
   C2_.resize(0, 3 * static_cast<Eigen::Index>(mortarMesh.nodes.count()));
-  std::set<int> mortarNodes;
-  for (const auto& triangle : mortar.triangles)
-    mortarNodes.insert(triangle.begin(), triangle.begin() + mortar.perTriangle());
-  mortarNodes_.assign(mortarNodes.begin(), mortarNodes.end());
+  mortarNodes_ = mortar.nodes();
   const double reach = std::min(nonmortar.extent, mortar.extent);
   if (options.follows) {
     drawSurfaces(std::move(nonmortar), std::move(mortar), options);
     follow(Vector::Zero(C1_.cols()), Vector::Zero(C2_.cols()));
   } else {
-    const TriangleTree tree(mortar);
-    SurfaceRefinement refinement(nonmortar, mortar, tree);
-    if (refinement.facing.empty()) throw InputError(names + " do not face each other");
-    const std::map<PartVertex, int> rowOf = rowsAsMeshed(nonmortar, mortar, tree, refinement, options);
-    if (rowOf.empty()) refuseWithoutRows(names);
-    assemble(nonmortar, mortar, tree, refinement, options, rowOf, {});
+    RefinedSurfaces surfaces(nonmortar, mortar, false);
+    if (surfaces.refinement.facing.empty()) throw InputError(names + " do not face each other");
+    findRows(surfaces, options);
+    if (surfaces.rowOf.empty()) refuseWithoutRows(names);
+    assemble(surfaces, options);
   }
   if (rows() == 0) refuseWithoutRows(names);
   if (!options.gap) {
@@ -109,12 +97,9 @@ ContactInterface::ContactInterface(const ContactPair& pair, const SpaceContactMe
   points_.distances = points_.traces[0] * givenAt(0);
 }
 
-/// The rows of a surface as meshed: of each vertex that faces the other one, but for ends that supports hold.
-std::map<PartVertex, int> ContactInterface::rowsAsMeshed(const ContactSurface& nonmortar,
-                                                         const ContactSurface& mortar,
-                                                         const TriangleTree& tree,
-                                                         const SurfaceRefinement& refinement,
-                                                         const InterfaceOptions& options) {
+/// Of each vertex that faces the other surface, but for ends that supports hold.
+void ContactInterface::findRows(RefinedSurfaces& surfaces, const InterfaceOptions& options) {
+  auto& [nonmortar, mortar, tree, refinement, rowOf, slipsAlong] = surfaces;
   const bool interpolates = pair_.coupling == CouplingKind::interpolation;
   const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
   const auto held = [&](const auto& each) {
@@ -122,7 +107,6 @@ std::map<PartVertex, int> ContactInterface::rowsAsMeshed(const ContactSurface& n
   };
   const bool allHeld = std::ranges::all_of(
       refinement.vertices, [&](const auto& each) { return !each.second.faces || held(each); });
-  std::map<PartVertex, int> rowOf;
   for (const auto& each : refinement.vertices) {
     const auto& [key, vertex] = each;
     if (!vertex.faces) continue;
@@ -142,110 +126,10 @@ std::map<PartVertex, int> ContactInterface::rowsAsMeshed(const ContactSurface& n
     rowOf.emplace(key, static_cast<int>(nonmortarNodes_.size()));
     nonmortarNodes_.push_back(key.first);
   }
-  return rowOf;
 }
 
-namespace {
-
-/// The same of the nodes of a surface as drawn, once for all: what is asked may not outlive the interface.
-FixedDirections tableOf(const FixedDirections& fixed, const ContactSurface& surface) {
-  if (!fixed) return {};
-  std::map<int, std::vector<SpacePoint>> table;
-  for (const auto& triangle : surface.triangles)
-    for (int k = 0; k < 3; ++k)
-      if (std::vector<SpacePoint> found = fixed(triangle[k]); !found.empty())
-        table.emplace(triangle[k], std::move(found));
-  return [table = std::move(table)](int node) {
-    const auto found = table.find(node);
-    return found == table.end() ? std::vector<SpacePoint>() : found->second;
-  };
-}
-
-/// Vertices held along the normals of a surface as drawn.
-InterfaceOptions::Held heldAcross(const InterfaceOptions::Held& held, const ContactSurface& surface) {
-  if (!held) return {};
-  std::set<int> nodes;
-  for (size_t t = 0; t < surface.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (held(surface.triangles[t][k], surface.vertexNormals[t][k].n)) nodes.insert(surface.triangles[t][k]);
-  return [nodes = std::move(nodes)](int node, const SpacePoint&) { return nodes.contains(node); };
-}
-
-}  // namespace
-
-void ContactInterface::drawSurfaces(ContactSurface nonmortar, ContactSurface mortar,
-                                    const InterfaceOptions& options) {
-  // Contact acts along the normal of the stiffer body, which hardly bends.
-  const bool own = !(options.stiffness < 1);
-  nonmortar.faceAlongNormals(own);
-  mortar.faceAlongNormals(!own);
-  InterfaceOptions kept = options;
-  kept.nonmortarHeld = {};
-  kept.mortarHeld = heldAcross(options.mortarHeld, mortar);
-  kept.nonmortarFixed = tableOf(options.nonmortarFixed, nonmortar);
-  kept.mortarFixed = tableOf(options.mortarFixed, mortar);
-  auto surfaces =
-      std::make_shared<Surfaces>(Surfaces{std::move(nonmortar), std::move(mortar), std::move(kept), {}, {}});
-  const bool mayMerge = surfaces->nonmortar.degree == 1 && options.nonmortarHeld &&
-                        pair_.coupling != CouplingKind::interpolation;
-  const VertexTable vertices = verticesOf(surfaces->nonmortar);
-  const auto held = [&](const auto& each) {
-    return mayMerge && options.nonmortarHeld(each.first.first, each.second.normal);
-  };
-  const bool allHeld = std::ranges::all_of(vertices, held);
-  for (const auto& each : vertices) {
-    if (!allHeld && held(each)) {
-      ++heldEnds_;
-      continue;
-    }
-    surfaces->rowOf.emplace(each.first, static_cast<int>(nonmortarNodes_.size()));
-    nonmortarNodes_.push_back(each.first.first);
-    surfaces->along.push_back(tangentsTo(each.second.normal)[0]);
-  }
-  std::set<int> nodes;
-  for (const auto& triangle : surfaces->nonmortar.triangles)
-    nodes.insert(triangle.begin(), triangle.begin() + surfaces->nonmortar.perTriangle());
-  nonmortarLine_.assign(nodes.begin(), nodes.end());
-  surfaces_ = std::move(surfaces);
-}
-
-void ContactInterface::followSurfaces(const Vector& u1, const Vector& u2, bool keepRows,
-                                      const MortarMotion* motion) {
-  const auto& [drawnNonmortar, drawnMortar, options, rowOf, drawnAlong] = *surfaces_;
-  const Vector& moved2 = motion != nullptr ? motion->moved : u2;
-  const ContactSurface nonmortar = drawnNonmortar.moved(u1, options.nonmortarFixed);
-  const ContactSurface mortar = drawnMortar.moved(moved2, options.mortarFixed);
-  // Directions of slip turn with the surface.
-  std::vector<SpacePoint> along(drawnAlong.size(), SpacePoint(0, 0, 0));
-  for (size_t t = 0; t < nonmortar.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (const auto row = rowOf.find({nonmortar.triangles[t][k], nonmortar.parts[t]}); row != rowOf.end())
-        along[row->second] += nonmortar.turns[t][k] * drawnAlong[row->second];
-  const TriangleTree tree(mortar);
-  SurfaceRefinement refinement(nonmortar, mortar, tree, true);
-  for (auto& [key, vertex] : refinement.vertices)
-    if (const auto row = rowOf.find(key); keepRows && row != rowOf.end())
-      vertex.faces = faces_[row->second] != 0;
-  assemble(nonmortar, mortar, tree, refinement, options, rowOf, along);
-  if (motion != nullptr) {
-    C2_ = ConstraintRows(C2_ * motion->change);
-    if (hasFriction()) T2_ = ConstraintRows(T2_ * motion->change);
-  }
-  distanceHere_ = distance_;
-  distance_ += jump(u1, u2);
-  for (SurfacePoints* points : {&points_, &nearest_}) {
-    const Matrix jumps = points->jump(u1, u2);
-    for (Eigen::Index i = 0; i < jumps.cols(); ++i)
-      points->distances[i] += points->normals[i].dot(jumps.col(i));
-  }
-}
-
-/// \param rowOf  by vertices; those that do not face the other surface have an empty row
-/// \param slipsAlong  the first direction of slip by rows, nearly; empty: that nearest to an axis
-void ContactInterface::assemble(const ContactSurface& nonmortar, const ContactSurface& mortar,
-                                const TriangleTree& tree, SurfaceRefinement& refinement,
-                                const InterfaceOptions& options, const std::map<PartVertex, int>& rowOf,
-                                const std::vector<SpacePoint>& slipsAlong) {
+void ContactInterface::assemble(RefinedSurfaces& surfaces, const InterfaceOptions& options) {
+  auto& [nonmortar, mortar, tree, refinement, rowOf, slipsAlong] = surfaces;
   const double reach = refinement.reach;
   VertexTable& vertices = refinement.vertices;
   const int slipRows = options.friction.any() ? 2 : 0;  // of a node

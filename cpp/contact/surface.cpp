@@ -128,6 +128,12 @@ void ContactSurface::findCurvatures() {
   }
 }
 
+std::vector<int> ContactSurface::nodes() const {
+  std::set<int> all;
+  for (const auto& triangle : triangles) all.insert(triangle.begin(), triangle.begin() + perTriangle());
+  return {all.begin(), all.end()};
+}
+
 SpacePoint ContactSurface::normalAt(int triangle, const Eigen::Vector3d& l) const {
   const auto& [a, b, c] = vertexNormals[triangle];
   return (l[0] * a.n + l[1] * b.n + l[2] * c.n).normalized();

@@ -49,6 +49,8 @@ struct ContactSurface {
   void faceAlongNormals(bool own);
 
   [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+  /// All of them, each once, ascending.
+  [[nodiscard]] std::vector<int> nodes() const;
   /// Of the curved surface at a point of a triangle, by its barycentric coordinates.
   [[nodiscard]] SpacePoint normalAt(int triangle, const Eigen::Vector3d& l) const;
   [[nodiscard]] double curvatureAt(int triangle, const Eigen::Vector3d& l) const;

@@ -129,15 +129,15 @@ Sliding slidingOf(const Model& model, const State& state, size_t interface) {
 
 Deformation deformationOf(const Body& body, const Vector& displacement) {
   Deformation most;
-  const auto add = [&](const auto& x, const auto& elements) {
-    constexpr int n = std::remove_cvref_t<decltype(x.front())>::RowsAtCompileTime;
+  body.withMesh([&](const auto& mesh, const auto&) {
+    constexpr int n = std::remove_cvref_t<decltype(mesh.vertices.front())>::RowsAtCompileTime;
     using Gradient = Eigen::Matrix<double, n, n>;
-    for (const auto& element : elements) {
+    for (size_t element = 0; element < body.elements(); ++element) {
+      const std::span<const int> nodes = body.nodesOf(element);  // the vertices first
       Gradient edges, changes;
       for (int k = 0; k < n; ++k) {
-        edges.col(k) = x[element[k + 1]] - x[element[0]];
-        changes.col(k) = displacement.template segment<n>(n * element[k + 1]) -
-                         displacement.template segment<n>(n * element[0]);
+        edges.col(k) = mesh.vertices[nodes[k + 1]] - mesh.vertices[nodes[0]];
+        changes.col(k) = displacement.segment<n>(n * nodes[k + 1]) - displacement.segment<n>(n * nodes[0]);
       }
       const Gradient gradient = changes * edges.inverse();
       const Gradient strain = (gradient + gradient.transpose()) / 2;
@@ -145,11 +145,7 @@ Deformation deformationOf(const Body& body, const Vector& displacement) {
       most.strain = std::max(most.strain, principal.eigenvalues().cwiseAbs().maxCoeff());
       most.rotation = std::max(most.rotation, (gradient - strain).norm() / M_SQRT2);
     }
-  };
-  if (body.space() != nullptr)
-    add(body.space()->mesh().vertices, body.space()->mesh().tetrahedra);
-  else
-    add(body.mesh().vertices, body.mesh().triangles);
+  });
   return most;
 }
 

@@ -9,7 +9,7 @@ from support import PROGRAM
 SEEDS = {6: "torus_part", 8: "filleted_corner", 11: "crossed_hole", 27: "eighth_of_ball"}
 
 
-@unittest.skipUnless(gmsh_support.available(), "Gmsh's library is not there")
+@unittest.skipUnless(gmsh_support.available(), "the library of Gmsh is not there")
 class Parts(unittest.TestCase):
     def test_vertices_lie_on_the_surfaces(self):
         for seed, name in SEEDS.items():

@@ -14,7 +14,7 @@ class Found(unittest.TestCase):
         self.assertGreater(scene.ratio, least, scene.found)
         self.assertLess(scene.ratio, most, scene.found)
 
-    @unittest.skipUnless(gmsh_support.available(), "Gmsh's library is not there")
+    @unittest.skipUnless(gmsh_support.available(), "the library of Gmsh is not there")
     def test_the_lowest_point_of_a_ball_lies_between_vertices(self):
         self.expect_contact(2, "turned ball")
 

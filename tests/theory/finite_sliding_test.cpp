@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "material/elasticity.h"
-#include "theory/scenes.h"
-#include "time/measure.h"
-#include "time/quantity.h"
+#include "theory/sliding_bodies.h"
 
 namespace mortier::finite_sliding_test {
 
@@ -20,16 +17,6 @@ TriangleMesh turned(TriangleMesh mesh, double angle) {
   const Eigen::Matrix2d rotation{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
   for (Point& x : mesh.vertices) x = rotation * x;
   return mesh;
-}
-
-Model following(Body upper, Body lower, const Rows& coupling, int nonmortarBody, double friction,
-                double stiffness) {
-  InterfaceOptions options;
-  options.follows = true;
-  options.friction = {friction, 0};
-  options.stiffness = stiffness;
-  coupling.set(options, 0.01);
-  return contactModel(std::move(upper), std::move(lower), coupling, nonmortarBody, options);
 }
 
 // Blocks of different meshes under uniform pressure, turned, and moved together by ten widths: whatever it
@@ -131,62 +118,12 @@ TEST(FiniteSliding, isOfSecondOrderInTheStep) {
   EXPECT_LE((results[0].state.bodies[upperBody].displacement - end).norm(), 1e-9 * end.norm());
 }
 
-// The plate's work is the change of the elastic energy and friction's, each with its own rows at both ends of
-// a step.
 TEST(FiniteSliding, energyIsKept) {
-  const Model model = dragged();
-  const auto energyOf = [&](const State& state) {
-    double sum = 0;
-    for (size_t b = 0; b < state.bodies.size(); ++b) {
-      Matrix strain;
-      model.bodies[b].material().elasticStrain(state.bodies[b].stress, strain);
-      for (int i = 0; i < model.bodies[b].points(); ++i)
-        sum += model.bodies[b].weights()[i] / 2 * state.bodies[b].stress.col(i).dot(strain.col(i));
-    }
-    return sum;
-  };
-  State state = initialState(model);
-  State before = state;
-  double worst = 0;
-  double largest = 0;
-  const RunReport report = march(model, state, {.end = 1, .steps = 20, .quantities = externalWorks()}, {},
-                                 [&](const State& now, const StepReport& step) {
-                                   if (step.step == 0) return;
-                                   const double left = workSince(before, now) -
-                                                       (energyOf(now) - energyOf(before)) -
-                                                       (now.frictionWork - before.frictionWork);
-                                   largest = std::max(largest, energyOf(now));
-                                   worst = std::max(worst, std::abs(left));
-                                   before = now;
-                                 });
-  ASSERT_EQ(report.status, Status::converged) << report.reason;
-  std::cout << "balance off by " << worst / largest << " of the largest energy\n";
-  EXPECT_LE(worst, 2e-9 * largest);
-  EXPECT_GT(state.frictionWork, 0.01 * largest);
+  expectEnergyKept(dragged(), 20);
 }
 
-// Rows of a state are those of its displacements alone: a run resumes from state and memory to the last bit.
 TEST(FiniteSliding, resumesToTheLastBit) {
-  const Model model = dragged();
-  const TimePlan plan{.end = 1, .steps = 12};
-  State whole = initialState(model);
-  State state;
-  MarchMemory memory;
-  MarchMemory kept;
-  march(model, whole, memory, plan, {}, [&](const State& now, const StepReport& report) {
-    if (report.step != 7) return;
-    state = now;
-    kept = memory;
-  });
-  const Model again = dragged();
-  ASSERT_EQ(march(again, state, kept, plan, {}, [](const State&, const StepReport&) {}).status,
-            Status::converged);
-  EXPECT_EQ(state.frictionWork, whole.frictionWork);
-  for (size_t b = 0; b < whole.bodies.size(); ++b) {
-    EXPECT_EQ(state.bodies[b].displacement, whole.bodies[b].displacement);
-    EXPECT_EQ(state.bodies[b].stress, whole.bodies[b].stress);
-  }
-  EXPECT_EQ(state.contactForce[0], whole.contactForce[0]);
+  expectResumed(dragged(), dragged(), 12, 7);
 }
 
 // Pushed by a force over the end of a table, a block falls; held from above it leaves, and nothing presses.

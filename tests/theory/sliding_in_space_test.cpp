@@ -4,13 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <iostream>
 
 #include "material/elasticity.h"
 #include "mesh/shape.h"
-#include "theory/scenes.h"
-#include "time/measure.h"
-#include "time/quantity.h"
+#include "theory/sliding_bodies.h"
 
 namespace mortier::sliding_in_space_test {
 
@@ -26,16 +23,6 @@ const Kind all[] = {{CouplingKind::weighted, 1},
                     {CouplingKind::weighted, 2},
                     {{CouplingKind::weighted, true}, 1},
                     {CouplingKind::mortar, 1}};
-
-Model following(Body upper, Body lower, const Rows& coupling, int nonmortarBody, double friction,
-                double stiffness) {
-  InterfaceOptions options;
-  options.follows = true;
-  options.friction = {friction, 0};
-  options.stiffness = stiffness;
-  coupling.set(options, 0.01);
-  return contactModel(std::move(upper), std::move(lower), coupling, nonmortarBody, options);
-}
 
 TetrahedronMesh turned(TetrahedronMesh mesh, const Eigen::Matrix3d& rotation) {
   for (SpacePoint& x : mesh.vertices) x = rotation * x;
@@ -135,59 +122,12 @@ Model dragged() {
   return following(std::move(upper), std::move(lower), CouplingKind::weighted, upperBody, 0.4, 0.5);
 }
 
-// The support's work is the change of the elastic energy and friction's, each with its own rows at both ends
-// of a step.
 TEST(SlidingInSpace, energyIsKept) {
-  const Model model = dragged();
-  const auto energyOf = [&](const State& state) {
-    double sum = 0;
-    for (size_t b = 0; b < state.bodies.size(); ++b) {
-      Matrix strain;
-      model.bodies[b].material().elasticStrain(state.bodies[b].stress, strain);
-      for (int i = 0; i < model.bodies[b].points(); ++i)
-        sum += model.bodies[b].weights()[i] / 2 * state.bodies[b].stress.col(i).dot(strain.col(i));
-    }
-    return sum;
-  };
-  State state = initialState(model);
-  State before = state;
-  double worst = 0;
-  double largest = 0;
-  const RunReport report = march(model, state, {.end = 1, .steps = 12, .quantities = externalWorks()}, {},
-                                 [&](const State& now, const StepReport& step) {
-                                   if (step.step == 0) return;
-                                   const double left = workSince(before, now) -
-                                                       (energyOf(now) - energyOf(before)) -
-                                                       (now.frictionWork - before.frictionWork);
-                                   largest = std::max(largest, energyOf(now));
-                                   worst = std::max(worst, std::abs(left));
-                                   before = now;
-                                 });
-  ASSERT_EQ(report.status, Status::converged) << report.reason;
-  std::cout << "balance off by " << worst / largest << " of the largest energy\n";
-  EXPECT_LE(worst, 1e-8 * largest);
-  EXPECT_GT(state.frictionWork, 0.01 * largest);
+  expectEnergyKept(dragged(), 12);
 }
 
-// Rows of a state are those of its displacements alone: a run resumes from state and memory to the last bit.
 TEST(SlidingInSpace, resumesToTheLastBit) {
-  const Model model = dragged();
-  const TimePlan plan{.end = 1, .steps = 6};
-  State whole = initialState(model);
-  State state;
-  MarchMemory memory;
-  MarchMemory kept;
-  march(model, whole, memory, plan, {}, [&](const State& now, const StepReport& report) {
-    if (report.step != 3) return;
-    state = now;
-    kept = memory;
-  });
-  const Model again = dragged();
-  ASSERT_EQ(march(again, state, kept, plan, {}, [](const State&, const StepReport&) {}).status,
-            Status::converged);
-  for (size_t b = 0; b < whole.bodies.size(); ++b)
-    EXPECT_EQ(state.bodies[b].displacement, whole.bodies[b].displacement);
-  EXPECT_EQ(state.contactForce[0], whole.contactForce[0]);
+  expectResumed(dragged(), dragged(), 6, 3);
 }
 
 // Held from above, a block leaves the table, and nothing presses.
