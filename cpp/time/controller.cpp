@@ -148,6 +148,9 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   if (!missed.slip.empty()) size += sizeOf(taker, missed);
   const std::vector<Matrix> flowed = std::exchange(missed.strain, {});
   if (!missed.slip.empty()) addTo(response, taker.response(flowed, missed.slip));
+  // Where rows are others in every step, what pairs miss has no sign of its own: it depends on where in the
+  // passage of a node each of them begins.
+  if (taker.follows()) missed.work = std::abs(missed.work);
   addTo(own.slip, 1, missed);
   addTo(own.strain, 1, flowed);
   if (hasFriction_) carrySlip(taker, taker.slipOf(response));

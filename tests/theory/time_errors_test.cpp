@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "theory/controlled_runs.h"
+#include "theory/sliding_bodies.h"
 
 namespace mortier::time_errors_test {
 
@@ -109,6 +110,38 @@ TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
     std::cout << "\n";
     EXPECT_EQ(run.status, Status::converged) << run.reason;
     EXPECT_LE(run.rejected, 200);
+  }
+}
+
+// A stiff block dragged over cells of a soft one and past its end: what a pair of steps misses of the friction
+// work of nodes that pass depends on where in their passage it begins, and sums of that would be small by
+// chance.
+TEST(TimeErrors, theFrictionWorkOfBodiesThatSlideFarIsSeen) {
+  const auto across = [](double t) { return -0.00373 * std::min(5 * t, 1.0); };
+  const auto along = [](double t) { return 6.52 * std::max(t - 0.2, 0.0) / 0.8; };
+  const auto at = [](const auto& path) {
+    return Function([path](double, double, double t) { return path(t); });
+  };
+  Case of;
+  const Rectangle block{{2.2234, 0}, {3.7498, 1}, 5, 5};
+  const Rectangle table{{0, -1.5}, {6.6703, 0}, 16, 4};
+  Body upper("upper", rectangleMesh(block, Cut::both), elasticMaterial({2.6864e6, 0.3}, Plane::strain),
+             {{{top, 0, at(along)}, {top, 1, at(across)}}, {}, {}});
+  Body lower("lower", rectangleMesh(table, Cut::both), elasticMaterial({163.55, 0.3}, Plane::strain),
+             {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+  of.model = following(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody, 0.735, 16426);
+  of.rough = true;
+  for (const double tolerance : {1e-2, 3e-3}) {
+    of.tolerance = tolerance;
+    of.plan = controlled(1, tolerance);
+    of.plan.breaks = {0.2};
+    of.plan.data = {resolve(across, 0, 1), resolve(along, 0, 1)};
+    const Outcome outcome = outcomeOf(of, 400, of.plan);
+    print("slid far", outcome.run);
+    std::cout << ", error of the work " << outcome.friction << " tolerances, estimate "
+              << outcome.run.timeError / tolerance << "\n";
+    EXPECT_EQ(outcome.run.status, Status::converged) << outcome.run.reason;
+    EXPECT_LE(outcome.friction, 1);
   }
 }
 
