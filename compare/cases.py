@@ -115,9 +115,10 @@ COARSE = {
     "sphere": ("body.ball.mesh.cells=5", "body.block.mesh.cells=[16, 16]"),
     "cone": ("body.ground.mesh.cells=[20, 20]",),
     "tilted": ("body.upper.mesh.parameters.h=0.6", "body.lower.mesh.parameters.h=0.45"),
-    # the part of the block that is below the lowest part of the disc, which has 720 sides
-    "ironing": ("body.block.mesh.cells=[8, 3]", "body.block.mesh.lower=[-0.6, -1]",
-                "body.block.mesh.upper=[1.6, 0]", "time.end=0.4"),
+    # the part of the block that is below the lowest part of the disc, which has 720 sides: few of a large one
+    "ironing": ("tool.cylinder.radius=20", "tool.cylinder.centre=[0, 20]",
+                'tool.cylinder.uy="-0.02*min(5*t, 1)"', "body.block.mesh.cells=[8, 3]",
+                "body.block.mesh.lower=[-0.6, -1]", "body.block.mesh.upper=[1.6, 0]", "time.end=0.4"),
 }
 # The scenes that FreeFEM solves as they stand but for meshes, or with these settings.
 SCENES = {
