@@ -11,3 +11,13 @@ file(WRITE ${documents}/changelog "mortier (${CPACK_PACKAGE_VERSION}) unstable; 
 ")
 file(GLOB pages ${CPACK_TEMPORARY_DIRECTORY}/usr/share/man/man1/*.1)
 execute_process(COMMAND gzip -9n ${documents}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
+
+# The packages of the libraries that programs and modules are linked with; CPack's own search starts two
+# processes for every file of the package.
+file(GLOB_RECURSE linked ${CPACK_TEMPORARY_DIRECTORY}/usr/bin/* ${CPACK_TEMPORARY_DIRECTORY}/usr/*.so)
+file(WRITE ${CPACK_TEMPORARY_DIRECTORY}/debian/control "")
+execute_process(COMMAND dpkg-shlibdeps --ignore-missing-info -O ${linked}
+                WORKING_DIRECTORY ${CPACK_TEMPORARY_DIRECTORY} OUTPUT_VARIABLE depends
+                OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE_RECURSE ${CPACK_TEMPORARY_DIRECTORY}/debian)
+string(REGEX REPLACE "^.*Depends=" "" CPACK_DEBIAN_PACKAGE_DEPENDS "${depends}")
