@@ -1,5 +1,6 @@
 """What `cmake --install` puts in place: a package that another project finds, the man page, completion."""
 import csv
+import functools
 import gzip
 import re
 import subprocess
@@ -20,9 +21,14 @@ def output(*command, **options):
     return done.stdout
 
 
+@functools.cache
+def help_of(program, *path):
+    return output(program, *path, "--help")
+
+
 def commands(program, *path):
     """Every command, and the lines of its help."""
-    lines = output(program, *path, "--help").splitlines()
+    lines = help_of(program, *path).splitlines()
     yield path, lines
     begin = lines.index("Subcommands:") + 1 if "Subcommands:" in lines else len(lines)
     for line in lines[begin:]:
@@ -222,7 +228,7 @@ steps = 1
 
     def check_completion(self, complete):
         def stated(*path):
-            return sorted(re.findall(r"^  (?:-h,)?(--[a-z-]+)", output(PROGRAM, *path, "--help"), re.M))
+            return sorted(re.findall(r"^  (?:-h,)?(--[a-z-]+)", help_of(PROGRAM, *path), re.M))
         known = [path for path, _ in commands(PROGRAM)]
         for path in known:
             self.assertEqual(complete(*path, "--"), stated(*path))
