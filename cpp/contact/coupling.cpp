@@ -156,15 +156,6 @@ Sparse projected(const Sparse& Phi, const Sparse& B) {
   return assembled(B.rows(), B.cols(), entries);
 }
 
-/// The projection of a distance is below a convex one by h^2/12 times its second derivative, and bodies that
-/// touch would press each other. It is moved up, by the same number at all rows, until none is below the
-/// least distance on its elements; but by no more than twice the way to the distance at the node, so that
-/// kinks and steps move the rows beside them alone.
-Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
-  const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
-  return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
-}
-
 /// Whether these are lines that have moved and were straight.
 bool drawnStraight(const CommonRefinement& refinement) {
   const auto isStraight = [](const auto& drawn) { return drawn && drawn->straight; };
@@ -252,6 +243,11 @@ void stabilise(const CommonRefinement& refinement, const Stabilisation& by, cons
 }
 
 }  // namespace
+
+Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
+  const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
+  return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
+}
 
 Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const DistanceAt& distance,
                 const std::vector<char>& merged, bool axisymmetric, const std::vector<char>& only,

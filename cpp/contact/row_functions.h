@@ -49,4 +49,10 @@ void atLobattoPoints(const CommonRefinement& refinement, const RowFunctions& row
   }
 }
 
+/// The projection of a distance is below a convex one by h^2/12 times its second derivative, and bodies that
+/// touch would press each other. It is moved up, by the same number at all rows, until none is below the
+/// least distance on its elements; but by no more than twice the way to the distance at the node, so that
+/// kinks and steps move the rows beside them alone.
+Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least);
+
 }  // namespace mortier

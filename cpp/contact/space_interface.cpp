@@ -22,6 +22,7 @@
 #include "base/quadrature_rules.h"
 #include "contact/interface_entries.h"
 #include "contact/point_entries.h"
+#include "contact/row_functions.h"
 #include "contact/surface.h"
 #include "contact/tangents.h"
 
@@ -265,7 +266,6 @@ void ContactInterface::assemble(RefinedSurfaces& surfaces, const InterfaceOption
     Eigen::Matrix<double, 3, 6> traces2 = traces1;
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
     Eigen::Vector3d covered = Eigen::Vector3d::Zero();
-    double nearest = infinity;
     forEachTriangle(each.polygon, [&](const Point& p0, const Point& e1, const Point& e2, double part) {
       const double area = part * twiceArea;
       for (const auto& [at, weight] : radonSeven)
@@ -277,14 +277,14 @@ void ContactInterface::assemble(RefinedSurfaces& surfaces, const InterfaceOption
                   traces2 += w * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(psi.data());
                   apart += delta * w;
                   covered += w;
-                  nearest = std::min(nearest, delta);
                 });
       atPoint(p0 + (e1 + e2) / 3, addTo(points));
       points.areas.push_back(area);
     });
-    if (!options.gap && options.initial != InitialGap::close)
-      atPoint(lowestIn(each.polygon, nonmortar.planar && mortar.planar ? 0 : 9, distanceAt),
-              addTo(nearestPoints));
+    // The least distance of a piece, which does not jump where another piece vanishes.
+    const Point lowest = lowestIn(each.polygon, nonmortar.planar && mortar.planar ? 0 : 9, distanceAt);
+    const double nearest = distanceAt(lowest);
+    if (!options.gap && options.initial != InitialGap::close) atPoint(lowest, addTo(nearestPoints));
     errors.push_back({nearest, errorBetween(nonmortar, mortar, each)});
     for (Eigen::Index i = 0; i < count; ++i) {
       const int row = own[i];
@@ -388,9 +388,7 @@ void ContactInterface::assemble(RefinedSurfaces& surfaces, const InterfaceOption
         T1_ += projected(ofSlips, columns1, slipD);
         T2_ = projected(ofSlips, columns2, slipM);
       }
-      // The projection of a convex distance may be below the least one where a row function is not 0.
-      const Vector mean = factor.solve(distance);
-      distance_ = mean.cwiseMax(least.cwiseMin(distance_));
+      distance_ = lifted(factor.solve(distance), distance_, least);
     }
   }
   for (ConstraintRows* T : {&T1_, &T2_}) {

@@ -79,6 +79,13 @@ class SlidingInSpace(InFolder):
         force = self.column(rows[1:], "press")  # its mesh is that of a sphere, nearly
         self.assertLess(max(force) - min(force), 5e-3*abs(force[0]))
 
+    def test_a_ball_touches_first_where_edges_are_on_top_of_each_other(self):
+        for seed in (172, 297):
+            with self.subTest(seed=seed):
+                self.write(random_slides_space.scene(seed))
+                self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "time.end=0.1",
+                             "--set", "time.steps=1")
+
     def test_random_slides_end_certified_or_with_a_reason(self):
         for seed in (1, 3, 6, 7, 10):
             with self.subTest(seed=seed):
