@@ -135,6 +135,8 @@ UNKNOWN_TO_FREEFEM = {"cook": "no contact interface",
                       "roller": 'a tool that turns beside sliding = "finite"',
                       "press-fit": "contact: a line with corners",
                       "hook": "contact: a line with corners",
+                      "bolt": "stage: expected --set stage=NAME", "rail": 'contact: kind = "tied"',
+                      "rolling-ball": 'tool ball: a tool that turns beside sliding = "finite"',
                       "ball": "degree = 2", "shells": "degree = 2", "round-punch": "degree = 2",
                       "known-end": "degree = 2"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",

@@ -459,13 +459,17 @@ Matrix Tie::jumpAtPoints(const std::vector<Vector>& u, const Vector& l) const {
       result.col(point) += value * u[of].segment(static_cast<Eigen::Index>(dimension_) * node, dimension_);
     });
   if (elastic()) result -= (layer_.transpose() * l).eval().reshaped(dimension_, points_.weights.size());
+  for (int c = 0; c < dimension_; ++c)
+    if (!along_[c]) result.row(c).setZero();
   return result;
 }
 
 void Tie::setRows(const Jumps& jumps, const TieOptions& options) {
   const auto points = static_cast<Eigen::Index>(jumps.elements.size());
   points_ = {jumps.elements, Eigen::Map<const Vector>(jumps.weights.data(), points),
-             Eigen::Map<const Vector>(jumps.sizes.data(), points)};
+             Eigen::Map<const Vector>(jumps.sizes.data(), points),
+             options.stiffness > 0 ? 1 / options.stiffness : 0};
+  along_ = options.along;
   const auto count = static_cast<Eigen::Index>(jumps.rowOf.size());
   Vector scale(count);
   for (Eigen::Index i = 0; i < count; ++i) scale[i] = 1 / jumps.lengths.at(static_cast<int>(i));

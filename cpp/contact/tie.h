@@ -86,6 +86,7 @@ struct TiePoints {
   std::vector<std::array<int, 2>> elements;  ///< behind the sides, of both bodies
   Vector weights;                            ///< ds [m], in space [m^2], of rings [m^2]
   Vector sizes;                              ///< an edge of the nonmortar side [m]
+  double layer = 0;                          ///< jump over traction of what is between the sides [m^3/N]
 };
 
 class Tie {
@@ -115,7 +116,8 @@ class Tie {
   [[nodiscard]] Vector heldJump(const std::vector<Vector>& u) const;
 
   [[nodiscard]] const TiePoints& points() const { return points_; }
-  /// u1 - u2 at the points, less what a layer allows under the forces l: dimensions x points [m].
+  /// u1 - u2 at the points along the axes that are tied, less what a layer allows under the forces l:
+  /// dimensions x points [m].
   [[nodiscard]] Matrix jumpAtPoints(const std::vector<Vector>& u, const Vector& l) const;
 
   /// Whether there is a layer, or a spring.
@@ -153,6 +155,7 @@ class Tie {
   std::vector<int> heldNodes_;
   std::vector<ConstraintRows> heldRows_;  ///< by sides
   TiePoints points_;
+  std::array<bool, 3> along_{true, true, true};
   Eigen::SparseMatrix<double> layer_;  ///< what forces of rows move the points by: rows x (dimensions points)
   Eigen::SparseMatrix<double> compliance_;
   double overlap_ = 0;

@@ -85,12 +85,13 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const std::string& length = input.scene.units.length;
   const std::string& stress = input.scene.units.stress;
   const double ratio = extent(a) / extent(b);
-  if (!one.isTool() && !two.isTool() && std::max(ratio, 1 / ratio) > units)
+  const bool deform = !one.isTool() && !two.isTool();
+  if (deform && std::max(ratio, 1 / ratio) > units)
     faults.add("extent-ratio", ratio < 1 ? one.meshWhere : two.meshWhere,
                both + " are " + digits(extent(a), 4) + " " + length + " and " + digits(extent(b), 4) + " " +
                    length + " wide");
   const double young = one.material.elasticity.young / two.material.elasticity.young;
-  if (std::max(young, 1 / young) >= units)
+  if (deform && std::max(young, 1 / young) >= units)
     faults.add("stiffness-ratio", input.where({"body", "material", "young"}, young < 1 ? i : j),
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);

@@ -111,8 +111,8 @@ void MeshErrorEstimator::addTies(const State& state, std::vector<ErrorEstimate>&
     const Matrix jump = tie.jumpAtPoints(u, state.tieForce[k]);
     for (Eigen::Index i = 0; i < jump.cols(); ++i) {
       const auto& [own, opposite] = points.elements[i];
-      const Compliance compliance =
-          complianceOf(state, nonmortar, own) + complianceOf(state, mortar, opposite);
+      Compliance compliance = complianceOf(state, nonmortar, own) + complianceOf(state, mortar, opposite);
+      compliance.all += points.layer / points.sizes[i];
       estimates[nonmortar].error[own] += compliance.elastic / (compliance.all * compliance.all) *
                                          points.weights[i] * jump.col(i).squaredNorm() / points.sizes[i];
     }

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Ties to points: couplings, layers and springs of a stiffness, bolts that are tightened."""
+import math
 import unittest
 
 from scene_parts import body, box, contact, elastic, quantity, tied, timed, tool
-from support import InFolder, value, values
+from support import ROOT, InFolder, value, values
 
 YOUNG, POISSON = 1000.0, 0.3
 
@@ -197,6 +198,23 @@ class Layers(Case):
             soft = values(self.run_it(self.column(of, f"stiffness = {k}", load) + numbers + STEP))
             ratio.append(abs(soft["top"] - rigid["top"]))
         self.assertAlmostEqual(ratio[0] / ratio[1], 100, delta=1)
+
+    def test_the_estimate_of_a_bent_beam_on_a_layer(self):
+        """Under a given load the work differs from the exact one by the square of the error; a quarter of it
+        is stored in the beam, the rest in the layer."""
+        for settings in ([], ["contact.along=['x', 'y']"], ["degree=1", "body.beam.mesh.cells=[600, 8]"]):
+            with self.subTest(settings=settings):
+                fine = "[2400, 16]" if "degree=1" in settings else "[300, 2]"
+                runs = []
+                for cells in ([], [f"body.beam.mesh.cells={fine}"]):
+                    self.mortier("run", ROOT / "scenes/rail.toml", "--quiet", "--out", "out",
+                                 *(word for each in settings + cells for word in ("--set", each)))
+                    runs.append(self.summary_of())
+                coarse, exact = (value(each, "down") for each in runs)
+                error = 2*math.sqrt(abs(coarse/exact - 1))
+                estimate = runs[0]["accuracy"]["energy_error"]
+                self.assertGreater(estimate, 0.8*error)
+                self.assertLess(estimate, 2*error)
 
     def test_a_block_on_springs(self):
         """A bed of springs, and one spring: a point that nothing moves."""
