@@ -9,11 +9,11 @@
 //   integral of E* g^2/h where p_h > 0, of E* (g_+)^2/h elsewhere,       1/E* = 1/E1 + 1/E2,
 //
 // h the edge of the nonmortar triangle, to whose error they are added; so is the jump of ties, in place of
-// the gap; 1/(k h) of a layer of stiffness k is added to 1/E*. Where bodies have flowed, the gap closes under less stress: E* is then that of strain over stress,
-// and the energy that of elasticity, K^2/E* in place of E*. In space the points of the common refinement take
-// the place of the line. Data that the meshes do not resolve come on top (data_error.cpp; in the plane), and
-// what the edges of the mortar side do not resolve of pressure and friction: to their body these are
-// tractions (pressure_error.cpp).
+// the gap; 1/(k h) of a layer of stiffness k is added to 1/E*. Where bodies have flowed, the gap closes under
+// less stress: E* is then that of strain over stress, and the energy that of elasticity, K^2/E* in place of
+// E*. In space the points of the common refinement take the place of the line. Data that the meshes do not
+// resolve come on top (data_error.cpp; in the plane), and what the edges of the mortar side do not resolve of
+// pressure and friction: to their body these are tractions (pressure_error.cpp).
 #pragma once
 
 #include <map>

@@ -202,9 +202,9 @@ class Layers(Case):
     def test_the_estimate_of_a_bent_beam_on_a_layer(self):
         """Under a given load the work differs from the exact one by the square of the error; a quarter of it
         is stored in the beam, the rest in the layer."""
-        for settings in ([], ["contact.along=['x', 'y']"], ["degree=1", "body.beam.mesh.cells=[600, 8]"]):
+        for settings in ([], ["contact.along=['x', 'y']"], ["degree=1", "body.beam.mesh.cells=[200, 8]"]):
             with self.subTest(settings=settings):
-                fine = "[2400, 16]" if "degree=1" in settings else "[300, 2]"
+                fine = "[800, 32]" if "degree=1" in settings else "[200, 4]"
                 runs = []
                 for cells in ([], [f"body.beam.mesh.cells={fine}"]):
                     self.mortier("run", ROOT / "scenes/rail.toml", "--quiet", "--out", "out",

@@ -102,7 +102,10 @@ double product(const Body& body, const Matrix& a, const Matrix& b) {
 class SceneBalance : public testing::TestWithParam<std::string> {};
 
 TEST_P(SceneBalance, ofForcesAndEnergies) {
-  ResolvedScene scene = resolveScene(readScene(GetParam()));
+  const std::vector<std::string> stages = stagesToRun(GetParam(), {});
+  const std::vector<std::string> first =
+      stages.empty() ? std::vector<std::string>() : std::vector{"stage=" + stages.front()};
+  ResolvedScene scene = resolveScene(readScene(GetParam(), first));
   const Model model = buildModel(scene);
   TimePlan plan = scene.description.time;
   const auto bodies = static_cast<int>(model.bodies.size());

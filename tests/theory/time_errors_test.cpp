@@ -113,9 +113,9 @@ TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
   }
 }
 
-// A stiff block dragged over cells of a soft one and past its end: what a pair of steps misses of the friction
-// work of nodes that pass depends on where in their passage it begins, and sums of that would be small by
-// chance.
+// A stiff block dragged over cells of a soft one and past its end: what a pair of steps misses of the
+// friction work of nodes that pass depends on where in their passage it begins, and sums of that would be
+// small by chance.
 TEST(TimeErrors, theFrictionWorkOfBodiesThatSlideFarIsSeen) {
   const auto across = [](double t) { return -0.00373 * std::min(5 * t, 1.0); };
   const auto along = [](double t) { return 6.52 * std::max(t - 0.2, 0.0) / 0.8; };
