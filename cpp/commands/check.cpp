@@ -41,22 +41,21 @@ int listKinds(bool json) {
   return exitDone;
 }
 
-Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
-  Json json;
-  json["scene"] = scene;
-  json["plan"] = Json::array();
+/// Adds the items of a stage; "" where the scene has none.
+void add(const std::string& stage, const Plan& plan, const Faults& faults, Json& json) {
+  const auto put = [&](const char* list, Json item) {
+    if (!stage.empty()) item["stage"] = stage;
+    json[list].push_back(std::move(item));
+  };
   for (const PlanItem& item : plan)
-    json["plan"].push_back(
-        {{"part", item.part}, {"modelled", item.modelled}, {"what", item.what}, {"why", item.why}});
-  json["faults"] = Json::array();
+    put("plan", {{"part", item.part}, {"modelled", item.modelled}, {"what", item.what}, {"why", item.why}});
   for (const Fault& fault : faults.all())
-    json["faults"].push_back({{"id", fault.kind->id},
-                              {"severity", word(fault.kind->severity)},
-                              {"place", printable(fault.place)},
-                              {"message", printable(fault.message)},
-                              {"remedy", fault.kind->remedy},
-                              {"more", fault.more}});
-  return json;
+    put("faults", {{"id", fault.kind->id},
+                   {"severity", word(fault.kind->severity)},
+                   {"place", printable(fault.place)},
+                   {"message", printable(fault.message)},
+                   {"remedy", fault.kind->remedy},
+                   {"more", fault.more}});
 }
 
 /// What other commands and the bounds would refuse.
@@ -74,8 +73,9 @@ void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) 
     plan.push_back({"accuracy", false, "a guaranteed bound of the error of the whole run's stress", why});
 }
 
+/// \param json  takes what is found, which is printed where it is null
 /// \returns the exit code that a run would have, 0 where there are warnings only
-int checkOne(const SceneOptions& command, bool json) {
+int checkOne(const SceneOptions& command, const std::string& stage, Json* json) {
   LintReport report = lint(command.scene, command.settings);
   Plan plan;
   if (report.model) {
@@ -90,9 +90,10 @@ int checkOne(const SceneOptions& command, bool json) {
   const Faults& faults = report.faults;
   const int wrong = faults.count(Severity::error);
   const int unheld = faults.count(Severity::unheld);
-  if (json) {
-    print(asJson(command.scene, plan, faults));
+  if (json != nullptr) {
+    add(stage, plan, faults, *json);
   } else {
+    if (!stage.empty()) std::printf("stage      %s\n", stage.c_str());
     std::fputs(planText(plan).c_str(), stdout);
     for (const Fault& fault : faults.all()) std::puts(printable(oneLine(fault)).c_str());
     std::printf("%s, %s\n", counted(wrong + unheld, "error").c_str(),
@@ -102,21 +103,28 @@ int checkOne(const SceneOptions& command, bool json) {
 }
 
 /// The same of all stages: the code of the first that is wrong.
-int check(const SceneOptions& command, bool json) {
+int checkStages(const SceneOptions& command, Json* json) {
   std::vector<std::string> stages;
   try {
     stages = stagesToRun(command.scene, command.settings);
   } catch (const InputError&) {
-    return checkOne(command, json);  // which names it
+    return checkOne(command, "", json);  // which names it
   }
-  if (stages.empty()) return checkOne(command, json);
+  if (stages.empty()) return checkOne(command, "", json);
   int result = exitDone;
   for (const std::string& stage : stages) {
     SceneOptions each = command;
     each.settings.push_back("stage=" + stage);
-    if (!json) std::printf("stage      %s\n", stage.c_str());
-    if (const int code = checkOne(each, json); result == exitDone) result = code;
+    if (const int code = checkOne(each, stage, json); result == exitDone) result = code;
   }
+  return result;
+}
+
+int check(const SceneOptions& command, bool json) {
+  if (!json) return checkStages(command, nullptr);
+  Json report = {{"scene", command.scene}, {"plan", Json::array()}, {"faults", Json::array()}};
+  const int result = checkStages(command, &report);
+  print(report);
   return result;
 }
 

@@ -42,7 +42,7 @@ class Gallery(InFolder):
                  "ironing": "contact.sliding=allow", "roller": "contact.sliding=allow",
                  "wedge": "contact.friction=0.1", "press-fit": "body.ring.material.young=1100",
                  "hook": "contact.friction=0", "bolt": "body.sleeve.material.young=60e3",
-                 "rail": "contact.stiffness=0.055", "rolling-ball": "contact.friction=0",
+                 "rail": "contact.stiffness=0.055", "rolling-ball": "tool.ball.ux=1.5*max(0, t - 0.2)/0.8",
                  "cubes": "body.material.viscosity=11", "ball": "body.block.material.young=1.2",
                  "tilted": "contact.variant=interpolation", "shells": "contact.gap=-0.0011*t",
                  "known-end": "body.lower.material.young=1.1", "round-punch": "body.block.material.young=1.1",

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Runs that go on from the state of another one: two runs equal one, supports are released, held, added."""
+import json
 import unittest
 
 from scene_parts import body, box, contact, quantity, timed, tool
@@ -116,7 +117,7 @@ class TwoRuns(Case):
         self.resume([], 20, ["history.csv", "contact.csv", "upper_000300.vtu"])
 
 
-class Stages(Case):
+class Continued(Case):
     """What a run of one scene cannot have: other supports, loads, contacts."""
 
     def test_a_released_support_springs_back(self):
@@ -169,7 +170,7 @@ class Stages(Case):
         """What it pressed on springs back."""
         self.begin(blocks() + until(1, 1))
         alone = BLOCKS[BLOCKS.index('[[body]]\nname = "lower"'):] + quantity(
-            "top", 'displacement = { body = "lower", label = 3 }', "y")
+            "top", "displacement", "lower", 3, "y")
         self.assertLess(abs(value(self.go_on(alone + until(2, 1)), "top")), 1e-15)
 
     def test_three_stages_keep_the_energy(self):
@@ -249,6 +250,8 @@ set = ["body.upper.boundary.3.uy=", "body.upper.boundary.3.ty=-1"]
         self.write(self.TEXT + self.STAGES)
         told = self.mortier("check", "scene.toml").stdout
         self.assertEqual(told.count("0 errors"), 3)
+        report = json.loads(self.mortier("check", "scene.toml", "--json").stdout)
+        self.assertEqual({item["stage"] for item in report["plan"]}, {"press", "hold", "lift"})
         self.write(self.TEXT + self.STAGES.replace("ty=-1", "ty=sqrt(t - 2)"))  # from its beginning on
         self.mortier("check", "scene.toml")
         self.write(self.TEXT + self.STAGES.replace("ty=-1", "ty=sqrt(t - 2.2)"))

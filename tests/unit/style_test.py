@@ -1,5 +1,7 @@
 """No line is longer than 110 characters, but for rows of Markdown tables and single long words; files that
 comments of C++ name are there."""
+import ast
+import collections
 import os
 import re
 import unittest
@@ -57,6 +59,19 @@ class Style(unittest.TestCase):
                 places.setdefault(f"{float(number):.9g}", set()).add(str(path.relative_to(ROOT)))
         self.assertEqual({number: files for number, files in places.items() if len(files) > 1}, {})
         self.assertGreater(len(places), 40)
+
+    def test_no_test_takes_the_name_of_another_one(self):
+        """The later of two classes or methods of one name is the only one that runs."""
+        twice, read = [], 0
+        for path in (ROOT / "tests").rglob("*_test.py"):
+            module = ast.parse(path.read_text(encoding="utf-8"))
+            for scope in (module, *(each for each in module.body if isinstance(each, ast.ClassDef))):
+                names = collections.Counter(each.name for each in scope.body
+                                            if isinstance(each, (ast.ClassDef, ast.FunctionDef)))
+                read += len(names)
+                twice += [f"{path.relative_to(ROOT)}: {name}" for name, count in names.items() if count > 1]
+        self.assertEqual(twice, [])
+        self.assertGreater(read, 1000)
 
     def test_a_long_line_would_be_seen(self):
         table, prose = "| " + "word " * 30 + "|", "word " * 30
