@@ -85,6 +85,10 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
     sum += contact;
     contacts += contact;
   }
+  // What moves the sides of a tie apart bears its force a third time.
+  if (std::ranges::any_of(
+          model.ties, [&](const Tie& tie) { return tie.sides().size() > 2 && tie.sides().back().body == b; }))
+    sum -= wrenchOf(contactForces(model, forcesOf(state), b), body);
   if (body.space() != nullptr) return sum.cwiseAbs().maxCoeff();
   double reach = 0;
   for (const Point& x : body.elementNodes().places) reach = std::max(reach, x.norm());
