@@ -35,7 +35,7 @@ class ZshSession:
         if self.process == 0:
             os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb"})
         self.answer(f"source {setup}\n")
-        self.answer("\x14")  # which the line editor answers: before it begins the terminal would take ^U itself
+        self.answer("\x14")  # the line editor answers: before it begins the terminal takes ^U itself
 
     def close(self):
         os.close(self.terminal)  # hangs up
