@@ -244,11 +244,6 @@ void stabilise(const CommonRefinement& refinement, const Stabilisation& by, cons
 
 }  // namespace
 
-Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
-  const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
-  return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
-}
-
 Coupling couple(CouplingKind kind, const CommonRefinement& refinement, const DistanceAt& distance,
                 const std::vector<char>& merged, bool axisymmetric, const std::vector<char>& only,
                 const Stabilisation& stabilisation) {

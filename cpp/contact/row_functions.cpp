@@ -72,4 +72,9 @@ EdgeValues RowFunctions::functions(int element, const EdgeNodes& rows, double s)
   return functions;
 }
 
+Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
+  const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
+  return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
+}
+
 }  // namespace mortier
